@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_mrf_planes/mrf_plane_segmentation.h>
+#include <pcl_mrf_planes/region_contour.h>
+
+#include <pcl/console/print.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl {
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::segment(
+    std::vector<ModelCoefficients>& model_coefficients,
+    std::vector<PointIndices>& inlier_indices)
+{
+  model_coefficients.clear();
+  inlier_indices.clear();
+  run([&] { fillModels(model_coefficients, inlier_indices); });
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::segment(
+    std::vector<ModelCoefficients>& model_coefficients,
+    std::vector<PointIndices>& inlier_indices, Centroids& centroids,
+    Covariances& covariances, PointCloudL& labels,
+    std::vector<PointIndices>& label_indices)
+{
+  model_coefficients.clear();
+  inlier_indices.clear();
+  centroids.clear();
+  covariances.clear();
+  labels.clear();
+  label_indices.clear();
+  run([&] {
+    fillModels(model_coefficients, inlier_indices);
+    fillLabels(labels, label_indices);
+    const SensorPose pose = sensorPose();
+    for (const auto& region : result_.regions) {
+      const Eigen::Vector3d centroid = pose.rotation * region.centroid + pose.origin;
+      centroids.push_back(centroid.homogeneous().template cast<float>());
+      const Eigen::Matrix3d covariance =
+          pose.rotation * region.covariance * pose.rotation.transpose();
+      covariances.push_back(covariance.template cast<float>());
+    }
+  });
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::segment(PlanarRegions& regions)
+{
+  regions.clear();
+  std::vector<PointIndices> boundaries;
+  run([&] { fillRegions(regions, boundaries); });
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::segmentAndRefine(
+    PlanarRegions& regions, std::vector<ModelCoefficients>& model_coefficients,
+    std::vector<PointIndices>& inlier_indices, PointCloudLPtr& labels,
+    std::vector<PointIndices>& label_indices,
+    std::vector<PointIndices>& boundary_indices)
+{
+  regions.clear();
+  model_coefficients.clear();
+  inlier_indices.clear();
+  label_indices.clear();
+  boundary_indices.clear();
+  if (!labels)
+    labels.reset(new PointCloudL);
+  labels->clear();
+  run([&] {
+    fillModels(model_coefficients, inlier_indices);
+    fillLabels(*labels, label_indices);
+    fillRegions(regions, boundary_indices);
+  });
+}
+
+template <typename PointT>
+template <typename Fill>
+void MRFPlaneSegmentation<PointT>::run(const Fill& fill)
+{
+  result_ = {};
+  if (!initCompute()) // has said why
+    return;
+  try {
+    if (checkInput()) {
+      const auto start = std::chrono::steady_clock::now();
+      readPoints();
+      const std::chrono::duration<double, std::milli> reading =
+          std::chrono::steady_clock::now() - start;
+      result_ = pcl_mrf_planes::segmentPlanes(points_, parameters_);
+      auto& stages = result_.report.stage_ms;
+      stages.emplace(stages.begin(), "points", reading.count());
+      fill();
+    }
+  }
+  catch (const std::bad_alloc&) {
+    PCL_ERROR("[pcl::%s::segment] Not enough memory for %zu points; segment a smaller "
+              "cloud or raise the merge threshold.\n",
+              getClassName(), input_->size());
+    result_ = {};
+  }
+  catch (const std::exception& error) {
+    PCL_ERROR("[pcl::%s::segment] %s\n", getClassName(), error.what());
+    result_ = {};
+  }
+  deinitCompute();
+}
+
+template <typename PointT>
+bool MRFPlaneSegmentation<PointT>::checkInput() const
+{
+  const auto count = static_cast<std::uint64_t>(input_->width) * input_->height;
+  if (input_->empty()) {
+    PCL_ERROR("[pcl::%s::segment] The input cloud has no points.\n", getClassName());
+    return false;
+  }
+  if (!input_->isOrganized() || count != input_->size()) {
+    PCL_ERROR(
+        "[pcl::%s::segment] The input cloud is not organized (width %u, height %u, "
+        "%zu points); rows and columns as the sensor measured them are needed.\n",
+        getClassName(), input_->width, input_->height, input_->size());
+    return false;
+  }
+  if (count > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
+    PCL_ERROR("[pcl::%s::segment] %zu points are more than 2^31 - 1; segment the cloud "
+              "in parts.\n",
+              getClassName(), input_->size());
+    return false;
+  }
+  const auto outside = [&](index_t i) {
+    return i < 0 || static_cast<std::size_t>(i) >= input_->size();
+  };
+  if (!fake_indices_ && std::any_of(indices_->begin(), indices_->end(), outside)) {
+    PCL_ERROR("[pcl::%s::segment] The indices name a point outside the cloud of %zu "
+              "points; set indices that belong to it.\n",
+              getClassName(), input_->size());
+    return false;
+  }
+  const std::string complaint = parameters_.validate();
+  if (!complaint.empty()) {
+    PCL_ERROR("[pcl::%s::segment] %s.\n", getClassName(), complaint.c_str());
+    return false;
+  }
+  return true;
+}
+
+template <typename PointT>
+typename MRFPlaneSegmentation<PointT>::SensorPose
+MRFPlaneSegmentation<PointT>::sensorPose() const
+{
+  Eigen::Quaterniond orientation = input_->sensor_orientation_.template cast<double>();
+  const double norm = orientation.norm();
+  if (!(norm > 0.5 && norm < 2.0)) // an unset quaternion is no rotation
+    orientation = Eigen::Quaterniond::Identity();
+  SensorPose pose;
+  pose.rotation = orientation.normalized().toRotationMatrix();
+  pose.origin = input_->sensor_origin_.template head<3>().template cast<double>();
+  if (!pose.origin.allFinite())
+    pose.origin.setZero();
+  return pose;
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::readPoints()
+{
+  points_.resize(static_cast<int>(input_->width), static_cast<int>(input_->height));
+  const SensorPose pose = sensorPose();
+  const Eigen::Matrix3d to_sensor = pose.rotation.transpose();
+  const bool in_sensor_frame =
+      pose.origin.isZero(0.0) && to_sensor.isIdentity(0.0); // the usual case: no motion
+  for (std::size_t i = 0; i < input_->size(); ++i) {
+    const PointT& p = (*input_)[i];
+    if (in_sensor_frame) {
+      points_.set(i, p.x, p.y, p.z);
+      continue;
+    }
+    const Eigen::Vector3d q =
+        to_sensor * (Eigen::Vector3d(p.x, p.y, p.z) - pose.origin);
+    points_.set(i, static_cast<float>(q.x()), static_cast<float>(q.y()),
+                static_cast<float>(q.z()));
+  }
+  if (!fake_indices_)
+    limitToIndices();
+  points_.resolveDepthMeasure(parameters_.depth_measure);
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::limitToIndices()
+{
+  std::vector<std::uint8_t> inside(points_.size(), 0);
+  for (const auto i : *indices_)
+    inside[static_cast<std::size_t>(i)] = 1;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (inside[i] == 0)
+      points_.clear(i);
+}
+
+template <typename PointT>
+Eigen::Vector4d
+MRFPlaneSegmentation<PointT>::coefficients(const pcl_mrf_planes::Plane& plane) const
+{
+  const SensorPose pose = sensorPose();
+  Eigen::Vector4d result;
+  result.head<3>() = pose.rotation * plane.normal;
+  result[3] = plane.d - result.head<3>().dot(pose.origin);
+  return result;
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::fillModels(
+    std::vector<ModelCoefficients>& model_coefficients,
+    std::vector<PointIndices>& inlier_indices) const
+{
+  for (const auto& region : result_.regions) {
+    ModelCoefficients model;
+    model.header = input_->header;
+    const Eigen::Vector4d abcd = coefficients(region.plane);
+    for (const double value : {abcd[0], abcd[1], abcd[2], abcd[3]})
+      model.values.push_back(static_cast<float>(value));
+    model_coefficients.push_back(std::move(model));
+
+    PointIndices inliers;
+    inliers.header = input_->header;
+    inliers.indices.assign(region.indices.begin(), region.indices.end());
+    inlier_indices.push_back(std::move(inliers));
+  }
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::fillLabels(
+    PointCloudL& labels, std::vector<PointIndices>& label_indices) const
+{
+  labels.header = input_->header;
+  labels.resize(input_->size());
+  labels.width = input_->width;
+  labels.height = input_->height;
+  labels.is_dense = true;
+  labels.sensor_origin_ = input_->sensor_origin_;
+  labels.sensor_orientation_ = input_->sensor_orientation_;
+  for (std::size_t i = 0; i < result_.labels.size(); ++i)
+    labels[i].label = result_.labels[i];
+
+  label_indices.resize(result_.regions.size() + 1);
+  for (std::size_t k = 0; k < result_.regions.size(); ++k) {
+    const auto& indices = result_.regions[k].indices;
+    label_indices[k + 1].header = input_->header;
+    label_indices[k + 1].indices.assign(indices.begin(), indices.end());
+  }
+}
+
+template <typename PointT>
+std::vector<PointIndices> MRFPlaneSegmentation<PointT>::contours() const
+{
+  const int width = points_.width;
+  const int height = points_.height;
+  const pcl_mrf_planes::ConnectedParts parts =
+      pcl_mrf_planes::findConnectedParts(result_.labels, width, height);
+  std::vector<int> largest(result_.regions.size(),
+                           pcl_mrf_planes::ConnectedParts::NONE);
+  for (std::size_t part = 0; part < parts.size.size(); ++part) {
+    int& best = largest[static_cast<std::size_t>(parts.label[part] - 1)];
+    if (best < 0 || parts.size[part] > parts.size[static_cast<std::size_t>(best)])
+      best = static_cast<int>(part);
+  }
+  std::vector<PointIndices> result(result_.regions.size());
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const std::vector<int> contour =
+        pcl_mrf_planes::traceContour(parts, largest[k], width, height);
+    result[k].header = input_->header;
+    result[k].indices.assign(contour.begin(), contour.end());
+  }
+  return result;
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::fillRegions(
+    PlanarRegions& regions, std::vector<PointIndices>& boundaries) const
+{
+  boundaries = contours();
+  const SensorPose pose = sensorPose();
+  for (std::size_t k = 0; k < result_.regions.size(); ++k) {
+    const auto& region = result_.regions[k];
+    const Eigen::Vector4d model = coefficients(region.plane);
+    typename PointCloud::VectorType contour;
+    for (const auto i : boundaries[k].indices) {
+      PointT point = (*input_)[static_cast<std::size_t>(i)];
+      if (project_points_) {
+        const Eigen::Vector3d p(point.x, point.y, point.z);
+        const Eigen::Vector3d q =
+            p - (model.head<3>().dot(p) + model[3]) * model.head<3>();
+        point.x = static_cast<float>(q.x());
+        point.y = static_cast<float>(q.y());
+        point.z = static_cast<float>(q.z());
+      }
+      contour.push_back(point);
+    }
+    const Eigen::Vector3d centroid = pose.rotation * region.centroid + pose.origin;
+    const Eigen::Matrix3d covariance =
+        pose.rotation * region.covariance * pose.rotation.transpose();
+    regions.emplace_back(centroid.template cast<float>(),
+                         covariance.template cast<float>(),
+                         static_cast<unsigned int>(region.indices.size()), contour,
+                         model.template cast<float>());
+  }
+}
+
+} // namespace pcl
+
+#define PCL_INSTANTIATE_MRFPlaneSegmentation(T)                                        \
+  template class PCL_EXPORTS pcl::MRFPlaneSegmentation<T>;

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_mrf_planes/parameters.h>
+#include <pcl_mrf_planes/plane_segmentation.h>
+
+#include <pcl/ModelCoefficients.h>
+#include <pcl/PointIndices.h>
+#include <pcl/pcl_base.h>
+#include <pcl/pcl_macros.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+#include <pcl/segmentation/planar_region.h>
+
+#include <Eigen/Core>
+#include <Eigen/StdVector>
+
+#include <vector>
+
+namespace pcl {
+
+/** \brief Segments an organized point cloud into planes by maximum a-posteriori
+ * labelling of a Markov random field.
+ *
+ * Implements "Towards Real-Time Segmentation of 3D Point Cloud Data into Local Planar
+ * Regions": tiles of the image are fitted with planes, similar planes are merged, and
+ * every point takes the label of one of them by loopy belief propagation. Only geometry
+ * is used, never colour.
+ *
+ * Drop-in beside pcl::OrganizedMultiPlaneSegmentation: same calls of segment(), no
+ * normals needed. Differences: indices are honoured as a region of interest (points
+ * outside take no part and get no label), outputs are cleared first, and planes come
+ * largest area first.
+ *
+ * The cloud's sensor_origin_ and sensor_orientation_ say where the sensor was; normals
+ * point towards it. A cloud in world coordinates must carry them: depth, noise and the
+ * offsets that the merging compares are measured from there.
+ *
+ * Errors (no cloud, not organized, bad indices, bad parameters) are reported through
+ * PCL_ERROR and leave all outputs empty; no exception leaves the class.
+ *
+ * \code
+ * pcl::MRFPlaneSegmentation<pcl::PointXYZ> segmentation;
+ * segmentation.setInputCloud(cloud);
+ * std::vector<pcl::ModelCoefficients> planes;
+ * std::vector<pcl::PointIndices> inliers;
+ * segmentation.segment(planes, inliers);
+ * \endcode
+ *
+ * \tparam PointT any point type with x, y and z. PCL's XYZ types are compiled into the
+ *         library; for your own define PCL_NO_PRECOMPILE before including this header.
+ */
+template <typename PointT>
+class MRFPlaneSegmentation : public PCLBase<PointT> {
+public:
+  using Ptr = shared_ptr<MRFPlaneSegmentation<PointT>>;
+  using ConstPtr = shared_ptr<const MRFPlaneSegmentation<PointT>>;
+
+  using typename PCLBase<PointT>::PointCloud;
+  using typename PCLBase<PointT>::PointCloudPtr;
+  using typename PCLBase<PointT>::PointCloudConstPtr;
+  using PointCloudL = pcl::PointCloud<pcl::Label>;
+  using PointCloudLPtr = PointCloudL::Ptr;
+
+  using Parameters = pcl_mrf_planes::Parameters;
+  using Profile = pcl_mrf_planes::Profile;
+  using PlaneFit = pcl_mrf_planes::PlaneFit;
+  using Smoothness = pcl_mrf_planes::Smoothness;
+  using DepthMeasure = pcl_mrf_planes::DepthMeasure;
+  using NoiseModel = pcl_mrf_planes::NoiseModel;
+  using Report = pcl_mrf_planes::SegmentationReport;
+  using Centroids =
+      std::vector<Eigen::Vector4f, Eigen::aligned_allocator<Eigen::Vector4f>>;
+  using Covariances =
+      std::vector<Eigen::Matrix3f, Eigen::aligned_allocator<Eigen::Matrix3f>>;
+  using PlanarRegions =
+      std::vector<PlanarRegion<PointT>, Eigen::aligned_allocator<PlanarRegion<PointT>>>;
+
+  MRFPlaneSegmentation() = default;
+  ~MRFPlaneSegmentation() override = default;
+
+  /// \name Parameters; units, ranges and effects stand at pcl_mrf_planes::Parameters
+  ///@{
+  void setParameters(const Parameters& parameters) { parameters_ = parameters; }
+  const Parameters& getParameters() const { return parameters_; }
+
+  /** \brief Take all the values of a named profile. */
+  void setProfile(Profile profile) { parameters_ = Parameters::fromProfile(profile); }
+
+  /** \brief Width and height of a tile in points, section IV-A. */
+  void setTileSize(int width, int height)
+  {
+    parameters_.tile_width = width;
+    parameters_.tile_height = height;
+  }
+  int getTileWidth() const { return parameters_.tile_width; }
+  int getTileHeight() const { return parameters_.tile_height; }
+
+  /** \brief Least-squares fit of a tile's plane, equation (3). */
+  void setPlaneFit(PlaneFit fit) { parameters_.fit = fit; }
+  PlaneFit getPlaneFit() const { return parameters_.fit; }
+
+  /** \brief Sensor noise sigma(z) that a tile's error is held against. */
+  void setNoiseModel(const NoiseModel& noise) { parameters_.noise = noise; }
+  const NoiseModel& getNoiseModel() const { return parameters_.noise; }
+
+  /** \brief How many sigma a tile's root mean square distance may reach. */
+  void setNoiseMultiplier(double multiplier)
+  {
+    parameters_.noise_multiplier = multiplier;
+  }
+  double getNoiseMultiplier() const { return parameters_.noise_multiplier; }
+
+  /** \brief Share of a tile's points that must be valid, 0 to 1. */
+  void setMinValidShare(double share) { parameters_.min_valid_share = share; }
+  double getMinValidShare() const { return parameters_.min_valid_share; }
+
+  /** \brief What counts as depth: z of the sensor frame or the range. */
+  void setDepthMeasure(DepthMeasure measure) { parameters_.depth_measure = measure; }
+  DepthMeasure getDepthMeasure() const { return parameters_.depth_measure; }
+
+  /** \brief Weight beta of the offsets' difference in equations (5) and (9), 1/m. */
+  void setBeta(double beta) { parameters_.beta = beta; }
+  double getBeta() const { return parameters_.beta; }
+
+  /** \brief Similarity threshold v of equation (5). */
+  void setMergeThreshold(double threshold) { parameters_.merge_threshold = threshold; }
+  double getMergeThreshold() const { return parameters_.merge_threshold; }
+
+  /** \brief Most label planes that are kept, the best supported first. */
+  void setMaxPlanes(int count) { parameters_.max_planes = count; }
+  int getMaxPlanes() const { return parameters_.max_planes; }
+
+  /** \brief Weight lambda of the data term, equation (7), 1/m. */
+  void setLambda(double lambda) { parameters_.lambda = lambda; }
+  double getLambda() const { return parameters_.lambda; }
+
+  /** \brief Distance tau at which the data term (7) is cut off, metres. */
+  void setTau(double tau) { parameters_.tau = tau; }
+  double getTau() const { return parameters_.tau; }
+
+  /** \brief Smoothness term: (8), (9), (10) or the variant in the text. */
+  void setSmoothness(Smoothness smoothness) { parameters_.smoothness = smoothness; }
+  Smoothness getSmoothness() const { return parameters_.smoothness; }
+
+  /** \brief Price gamma of a label change for Smoothness::POTTS, equation (8). */
+  void setGamma(double gamma) { parameters_.gamma = gamma; }
+  double getGamma() const { return parameters_.gamma; }
+
+  /** \brief Checkerboard iterations of belief propagation, section IV-D. */
+  void setIterations(int iterations) { parameters_.iterations = iterations; }
+  int getIterations() const { return parameters_.iterations; }
+
+  /** \brief Stop once no message changes by more than this; negative: never. */
+  void setConvergenceTolerance(double tolerance)
+  {
+    parameters_.convergence_tolerance = tolerance;
+  }
+  double getConvergenceTolerance() const { return parameters_.convergence_tolerance; }
+
+  /** \brief Record the energy of every iteration in the report (slower). */
+  void setComputeEnergy(bool compute) { parameters_.compute_energy = compute; }
+  bool getComputeEnergy() const { return parameters_.compute_energy; }
+
+  /** \brief Planes with fewer points than this are dropped. */
+  void setMinInliers(int min_inliers) { parameters_.min_inliers = min_inliers; }
+  int getMinInliers() const { return parameters_.min_inliers; }
+
+  /** \brief Threads to use; 0: as many as the machine has cores. */
+  void setNumberOfThreads(unsigned int threads = 0)
+  {
+    parameters_.number_of_threads = threads;
+  }
+  unsigned int getNumberOfThreads() const { return parameters_.number_of_threads; }
+
+  /** \brief Move the contours of planar regions onto their planes. */
+  void setProjectPoints(bool project) { project_points_ = project; }
+  bool getProjectPoints() const { return project_points_; }
+  ///@}
+
+  /** \brief Segment all planes of the input cloud.
+   * \param[out] model_coefficients a, b, c, d of each plane in the frame of the cloud,
+   *             largest area first, normals of unit length towards the sensor
+   * \param[out] inlier_indices the points of each plane, ascending
+   */
+  void segment(std::vector<ModelCoefficients>& model_coefficients,
+               std::vector<PointIndices>& inlier_indices);
+
+  /** \brief Segment all planes of the input cloud.
+   * \param[out] model_coefficients, inlier_indices as above
+   * \param[out] centroids mean of each plane's points (x, y, z, 1), metres
+   * \param[out] covariances covariance of each plane's points, square metres
+   * \param[out] labels a label for each point of the cloud: 0 no plane, k the plane
+   *             model_coefficients[k - 1]
+   * \param[out] label_indices the points of each label; entry 0 is empty, as "no plane"
+   *             is no region
+   */
+  void segment(std::vector<ModelCoefficients>& model_coefficients,
+               std::vector<PointIndices>& inlier_indices, Centroids& centroids,
+               Covariances& covariances, PointCloudL& labels,
+               std::vector<PointIndices>& label_indices);
+
+  /** \brief Segment all planes of the input cloud.
+   * \param[out] regions for each plane its statistics, coefficients and the outer
+   * contour of its largest connected part
+   */
+  void segment(PlanarRegions& regions);
+
+  /** \brief The same as segment(regions): labels by MAP inference are refined already.
+   */
+  void segmentAndRefine(PlanarRegions& regions) { segment(regions); }
+
+  /** \brief Everything at once, in the shape of
+   * pcl::OrganizedMultiPlaneSegmentation::segmentAndRefine().
+   * \param[out] regions, model_coefficients, inlier_indices, labels, label_indices as
+   *             in the calls above; a null \a labels is allocated
+   * \param[out] boundary_indices the contour of each region as point indices
+   */
+  void segmentAndRefine(PlanarRegions& regions,
+                        std::vector<ModelCoefficients>& model_coefficients,
+                        std::vector<PointIndices>& inlier_indices,
+                        PointCloudLPtr& labels,
+                        std::vector<PointIndices>& label_indices,
+                        std::vector<PointIndices>& boundary_indices);
+
+  /** \brief Counts, energies and times of the last run. */
+  const Report& getReport() const { return result_.report; }
+
+  /** \brief The last run in the sensor frame: the image of planar fits, the
+   * tile-to-plane map, regions with areas, and the label image. */
+  const pcl_mrf_planes::PlaneSegmentation& getResult() const { return result_; }
+
+protected:
+  using PCLBase<PointT>::input_;
+  using PCLBase<PointT>::indices_;
+  using PCLBase<PointT>::fake_indices_;
+  using PCLBase<PointT>::initCompute;
+  using PCLBase<PointT>::deinitCompute;
+
+  /** \brief Class name for messages. */
+  virtual const char* getClassName() const { return "MRFPlaneSegmentation"; }
+
+private:
+  /// A rigid motion between the cloud's frame and the sensor's.
+  struct SensorPose {
+    Eigen::Matrix3d rotation;
+    Eigen::Vector3d origin;
+  };
+
+  /// Runs \a fill on a good result; reports what went wrong otherwise.
+  template <typename Fill>
+  void run(const Fill& fill);
+
+  bool checkInput() const;
+  SensorPose sensorPose() const;
+  void readPoints();
+  void limitToIndices();
+  void fillModels(std::vector<ModelCoefficients>& model_coefficients,
+                  std::vector<PointIndices>& inlier_indices) const;
+  void fillLabels(PointCloudL& labels, std::vector<PointIndices>& label_indices) const;
+  void fillRegions(PlanarRegions& regions, std::vector<PointIndices>& boundaries) const;
+  std::vector<PointIndices> contours() const;
+  Eigen::Vector4d coefficients(const pcl_mrf_planes::Plane& plane) const;
+
+  Parameters parameters_;
+  bool project_points_ = false;
+  pcl_mrf_planes::OrganizedPoints points_;
+  pcl_mrf_planes::PlaneSegmentation result_;
+};
+
+} // namespace pcl
+
+#ifdef PCL_NO_PRECOMPILE
+#include <pcl_mrf_planes/impl/mrf_plane_segmentation.hpp>
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_mrf_planes/parameters.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_mrf_planes {
+
+/** \brief An organized cloud as planes of floats, in the sensor frame.
+ *
+ * Row by row, point (x, y) of the image at index y * width + x. The sensor is at the
+ * origin, so the result does not depend on where the cloud lies in the world, and the
+ * offset d of a plane turned towards the sensor is never negative. Invalid points have
+ * coordinates 0 and valid 0: they add nothing to a sum and are no sites of the field.
+ */
+struct OrganizedPoints {
+  int width = 0;
+  int height = 0;
+  std::vector<float> x, y, z; ///< metres
+  std::vector<std::uint8_t>
+      valid; ///< 1: a measured point inside the region of interest
+  /// How depth is measured; never AUTO once resolveDepthMeasure() was called.
+  DepthMeasure depth_measure = DepthMeasure::OPTICAL_AXIS;
+
+  /** \brief Points farther than this, in metres, count as invalid. */
+  static constexpr float FARTHEST = 1e6f;
+
+  /** \brief Number of points, valid or not. */
+  std::size_t size() const { return valid.size(); }
+
+  /** \brief Set the size; all points become invalid. */
+  void resize(int new_width, int new_height);
+
+  /** \brief Store a point of the sensor frame at \a index; one that is not finite or
+   * beyond FARTHEST stays invalid. */
+  void set(std::size_t index, float px, float py, float pz)
+  {
+    // Written so that NaN and infinity fail.
+    const bool good = std::abs(px) <= FARTHEST && std::abs(py) <= FARTHEST &&
+                      std::abs(pz) <= FARTHEST;
+    x[index] = good ? px : 0.0f;
+    y[index] = good ? py : 0.0f;
+    z[index] = good ? pz : 0.0f;
+    valid[index] = good;
+  }
+
+  /** \brief Make the point at \a index invalid. */
+  void clear(std::size_t index)
+  {
+    x[index] = y[index] = z[index] = 0.0f;
+    valid[index] = 0;
+  }
+
+  /** \brief Depth Z(i, j) of the point at \a index in metres. */
+  float depth(std::size_t index) const
+  {
+    if (depth_measure != DepthMeasure::RANGE)
+      return z[index];
+    return std::sqrt(x[index] * x[index] + y[index] * y[index] + z[index] * z[index]);
+  }
+
+  /** \brief Depth of any point of the sensor frame in metres. */
+  double depthOf(const Eigen::Vector3d& point) const
+  {
+    return depth_measure == DepthMeasure::RANGE ? point.norm() : std::abs(point.z());
+  }
+
+  /** \brief Decide AUTO from the points: a camera sees nothing behind itself. */
+  void resolveDepthMeasure(DepthMeasure wanted);
+
+  /** \brief Number of valid points. */
+  std::size_t countValid() const;
+};
+
+} // namespace pcl_mrf_planes

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_mrf_planes/grid_field.h>
+#include <pcl_mrf_planes/organized_points.h>
+#include <pcl_mrf_planes/parameters.h>
+#include <pcl_mrf_planes/plane.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_mrf_planes {
+
+/** \brief Energy of a segmentation, equation (6) summed over all sites; energy units.
+ */
+struct FieldEnergy {
+  double data = 0.0;       ///< sum of (7) over the valid points
+  double smoothness = 0.0; ///< sum of V over the edges, each edge once
+  double total() const { return data + smoothness; }
+};
+
+/** \brief The Markov random field of section IV-C: a site for every valid point, an
+ * edge between every two valid 4-neighbours, a label for every plane.
+ *
+ * field() is the same energy in 16-bit units, one unit being 1 / unitsPerEnergy(). The
+ * scale is the largest for which no sum in the belief propagation can overflow, so each
+ * term is off by at most half a unit: two labellings whose energies differ by more than
+ * (sites + edges) / unitsPerEnergy() are ordered alike in both.
+ */
+class PlaneField {
+public:
+  /** \brief Build the field. O(points * planes)
+   * \param[in] points the cloud, must outlive this object
+   * \param[in] planes the L label planes, at least one
+   * \param[in] parameters lambda, tau, beta, gamma and the smoothness term
+   */
+  PlaneField(const OrganizedPoints& points, std::vector<Plane> planes,
+             const Parameters& parameters);
+
+  /** \brief The energy in 16-bit units, as BeliefPropagation takes it. */
+  const GridField& field() const { return field_; }
+
+  /** \brief 16-bit units in one unit of energy. */
+  double unitsPerEnergy() const { return units_; }
+
+  const std::vector<Plane>& planes() const { return planes_; }
+
+  /** \brief Truncated point-to-plane distance, equation (7), unrounded.
+   * \param[in] index a valid point \param[in] l label */
+  double dataTerm(std::size_t index, int l) const;
+
+  /** \brief Price of labels \a a and \a b on sites whose depths differ by \a dz metres:
+   * (8), (9), (10) or the variant in the text, as Parameters::smoothness says. */
+  double smoothnessTerm(int a, int b, double dz) const;
+
+  /** \brief Exact energy of a labelling, row by row, in double precision.
+   * \param[in] labels label of every point; those of invalid points are not read */
+  FieldEnergy energy(const std::vector<std::uint16_t>& labels) const;
+
+private:
+  void choosePrices(double largest_depth_step);
+  void fillData();
+  void fillEdges();
+  double largestDepthStep() const;
+  std::uint16_t edgeWeight(std::size_t from, std::size_t to) const;
+
+  const OrganizedPoints& points_;
+  std::vector<Plane> planes_;
+  Parameters parameters_;
+  Eigen::MatrixXd dissimilarity_; ///< equation (9) for every pair of labels
+  std::vector<float> depth_;
+  double units_ = 1.0;
+  GridField field_;
+};
+
+} // namespace pcl_mrf_planes

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_mrf_planes/organized_points.h>
+#include <pcl_mrf_planes/parameters.h>
+#include <pcl_mrf_planes/plane_clustering.h>
+#include <pcl_mrf_planes/plane_field.h>
+#include <pcl_mrf_planes/plane_regions.h>
+#include <pcl_mrf_planes/tile_plane_detection.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl_mrf_planes {
+
+/** \brief What a run did: counts, energies and times. */
+struct SegmentationReport {
+  std::size_t points = 0;       ///< points of the image
+  std::size_t valid_points = 0; ///< measured points inside the region of interest
+  std::size_t tiles_tried = 0;
+  std::size_t tiles_kept = 0;
+  std::size_t planes_after_merging = 0; ///< L, the number of labels
+  std::size_t planes = 0;               ///< planes that won points
+  int iterations = 0;                   ///< belief propagation iterations done
+  double labelled_share = 0.0;          ///< of the valid points, 0 to 1
+  /// Energy of the initial labels and after each iteration (parameters.compute_energy).
+  std::vector<FieldEnergy> energy;
+  /// Milliseconds of each stage in order: tiles, merging, field, propagation, regions;
+  /// MRFPlaneSegmentation puts its own "points" in front.
+  std::vector<std::pair<std::string, double>> stage_ms;
+
+  double totalMs() const;
+};
+
+/** \brief Result of a run, in the sensor frame. */
+struct PlaneSegmentation {
+  std::vector<PlaneRegion> regions;  ///< largest area first
+  std::vector<std::uint16_t> labels; ///< per point: 0 no plane, k regions[k - 1]
+  TileImage tiles;                   ///< the image of planar fits
+  PlaneClusters clusters;            ///< label planes and the tile-to-plane map
+  SegmentationReport report;
+};
+
+/** \brief Segment organized points into planes: section IV of the paper in one
+ * function. \param[in] points the cloud in the sensor frame \param[in] parameters must
+ * pass Parameters::validate()
+ */
+PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
+                                const Parameters& parameters);
+
+} // namespace pcl_mrf_planes

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pcl_mrf_planes {
+
+/// The plane and the scale of equation (7) in single precision.
+struct DataTerm {
+  float a, b, c, d;
+  float tau;   ///< metres
+  float scale; ///< 16-bit units per metre: lambda times the units per energy
+};
+
+/// Costs of one label for a row of points: round(scale * min(|a x + b y + c z + d|,
+/// tau)). The same bits for every instruction set: products and sums are not fused.
+void dataTermRow(const DataTerm& term, const float* x, const float* y, const float* z,
+                 std::size_t count, std::uint16_t* cost);
+
+} // namespace pcl_mrf_planes

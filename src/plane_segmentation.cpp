@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_mrf_planes/plane_segmentation.h>
+
+#include <pcl_mrf_planes/belief_propagation.h>
+
+#include "stage_timer.h"
+
+#include <cmath>
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+std::vector<Plane> labelPlanes(const PlaneClusters& clusters)
+{
+  std::vector<Plane> planes;
+  for (const PlaneModel& model : clusters.planes)
+    planes.push_back(model.plane);
+  return planes;
+}
+
+/// MAP labels by belief propagation, section IV-D, with the energy on the way if asked.
+std::vector<std::uint16_t> inferLabels(const PlaneField& field,
+                                       const Parameters& parameters,
+                                       SegmentationReport& report)
+{
+  BeliefPropagation propagation(field.field(), parameters.number_of_threads);
+  // One unit is lost to rounding; a tolerance of zero asks for settled messages.
+  const int tolerance =
+      parameters.convergence_tolerance < 0.0
+          ? -1
+          : static_cast<int>(std::fmin(65535.0, parameters.convergence_tolerance *
+                                                    field.unitsPerEnergy()));
+  if (!parameters.compute_energy) {
+    report.iterations = propagation.iterate(parameters.iterations, tolerance);
+    return propagation.mapLabels();
+  }
+  std::vector<std::uint16_t> labels = propagation.mapLabels();
+  report.energy.push_back(field.energy(labels));
+  while (report.iterations < parameters.iterations && !propagation.settled(tolerance)) {
+    report.iterations += propagation.iterate(1);
+    labels = propagation.mapLabels();
+    report.energy.push_back(field.energy(labels));
+  }
+  return labels;
+}
+
+} // namespace
+
+double SegmentationReport::totalMs() const
+{
+  double total = 0.0;
+  for (const auto& stage : stage_ms)
+    total += stage.second;
+  return total;
+}
+
+PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
+                                const Parameters& parameters)
+{
+  PlaneSegmentation result;
+  SegmentationReport& report = result.report;
+  StageTimer timer(report.stage_ms);
+
+  // A. Planar surface detection
+  result.tiles = detectTilePlanes(points, parameters);
+  timer.finish("tiles");
+
+  // B. Merging planes
+  result.clusters = clusterTilePlanes(result.tiles, parameters);
+  timer.finish("merging");
+
+  std::vector<std::uint16_t> map_labels;
+  const std::vector<Plane> planes = labelPlanes(result.clusters);
+  if (!planes.empty()) {
+    // C. The Markov random field
+    const PlaneField field(points, planes, parameters);
+    timer.finish("field");
+
+    // D. MRF energy optimization by belief propagation
+    map_labels = inferLabels(field, parameters, report);
+    timer.finish("propagation");
+
+    result.regions = gatherRegions(points, planes, map_labels, parameters.min_inliers);
+  }
+  result.labels = regionLabels(points, result.regions);
+  timer.finish("regions");
+
+  report.points = points.size();
+  report.valid_points = points.countValid();
+  report.tiles_tried = result.tiles.tiles.size();
+  report.tiles_kept = result.tiles.countKept();
+  report.planes_after_merging = planes.size();
+  report.planes = result.regions.size();
+  std::size_t labelled = 0;
+  for (const PlaneRegion& region : result.regions)
+    labelled += region.indices.size();
+  if (report.valid_points > 0)
+    report.labelled_share =
+        static_cast<double>(labelled) / static_cast<double>(report.valid_points);
+  return result;
+}
+
+} // namespace pcl_mrf_planes
