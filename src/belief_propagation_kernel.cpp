@@ -22,27 +22,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<std::uint16_t, CheckerboardLayout::PADDING>;
 using Vec = hn::Vec<Tag>;
 
-constexpr int DIRECTIONS = 4;
-
-/// Scratch for one block of sites: a vector for each label.
-struct Block {
-  explicit Block(int labels)
-  : belief(static_cast<std::size_t>(labels) * hn::MaxLanes(Tag()) + ALIGNMENT)
-  , h(belief.size())
-  , active(static_cast<std::size_t>(labels))
-  {}
-  static std::uint16_t* aligned(std::vector<std::uint16_t>& v)
-  {
-    const auto address = reinterpret_cast<std::uintptr_t>(v.data());
-    const std::uintptr_t bytes = ALIGNMENT * sizeof(std::uint16_t);
-    return reinterpret_cast<std::uint16_t*>((address + bytes - 1) / bytes * bytes);
-  }
-  static constexpr std::size_t ALIGNMENT = 64; // elements, more than any vector
-  std::vector<std::uint16_t> belief;
-  std::vector<std::uint16_t> h;
-  std::vector<int> active;
-};
-
 /// Data cost plus the four messages of label l.
 HWY_INLINE Vec belief(const SiteRow& row, std::ptrdiff_t offset)
 {
@@ -106,10 +85,10 @@ HWY_INLINE void sendScaledMaximum(const SiteRow& row, std::uint16_t* h, Vec weig
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
-  Vec least = hn::Set(d, GridField::NO_EDGE);
+  Vec least = hn::Set(d, PairPrices::NO_EDGE);
   for (int b = 0; b < row.labels; ++b) {
     const std::ptrdiff_t pairs = static_cast<std::ptrdiff_t>(b) * row.labels;
-    Vec best = hn::Set(d, GridField::NO_EDGE);
+    Vec best = hn::Set(d, PairPrices::NO_EDGE);
     for (int a = 0; a < row.labels; ++a) {
       const Vec scaled = hn::MulHigh(hn::Set(d, row.scale[pairs + a]), weight);
       const Vec price = hn::Max(hn::Set(d, row.pairwise[pairs + a]), scaled);
@@ -119,7 +98,7 @@ HWY_INLINE void sendScaledMaximum(const SiteRow& row, std::uint16_t* h, Vec weig
     hn::Store(best, d, message + static_cast<std::size_t>(b) * lanes);
     least = hn::Min(least, best);
   }
-  const auto none = hn::Eq(weight, hn::Set(d, GridField::NO_EDGE));
+  const auto none = hn::Eq(weight, hn::Set(d, PairPrices::NO_EDGE));
   for (int b = 0; b < row.labels; ++b) {
     const Vec best = hn::Load(d, message + static_cast<std::size_t>(b) * lanes);
     store(hn::IfThenZeroElse(none, hn::Sub(best, least)),
@@ -127,16 +106,13 @@ HWY_INLINE void sendScaledMaximum(const SiteRow& row, std::uint16_t* h, Vec weig
   }
 }
 
-std::uint16_t SendRow_(const SiteRow& row, const SendRow& send)
+std::uint16_t SendMessages(const SiteRow& row, const SendRow& send,
+                           KernelScratch& scratch)
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
-  Block block(row.labels);
-  std::uint16_t* const sum = Block::aligned(block.belief);
-  std::uint16_t* const h = Block::aligned(block.h);
-  std::vector<std::uint16_t> scratch(
-      row.model == EdgeModel::SCALED_MAXIMUM ? block.h.size() : 0);
-  std::uint16_t* const message = scratch.empty() ? nullptr : Block::aligned(scratch);
+  std::uint16_t* const sum = scratch.belief;
+  std::uint16_t* const h = scratch.h;
 
   Vec change = hn::Zero(d);
   for (std::ptrdiff_t k = 0; k < row.sites; k += static_cast<std::ptrdiff_t>(lanes)) {
@@ -148,7 +124,7 @@ std::uint16_t SendRow_(const SiteRow& row, const SendRow& send)
       if (send.target[direction] == nullptr)
         continue;
       // h: everything that the site knows but what the receiver told it.
-      Vec least = hn::Set(d, GridField::NO_EDGE);
+      Vec least = hn::Set(d, PairPrices::NO_EDGE);
       for (int l = 0; l < row.labels; ++l) {
         const Vec told =
             hn::LoadU(d, row.received[direction] +
@@ -167,10 +143,11 @@ std::uint16_t SendRow_(const SiteRow& row, const SendRow& send)
       }
       const Vec weight = hn::LoadU(d, send.weight[direction] + k);
       if (row.model == EdgeModel::SOFT_THRESHOLD)
-        sendSoftThreshold(row, h, most, weight, block.active,
+        sendSoftThreshold(row, h, most, weight, scratch.active,
                           send.target[direction] + k, change);
       else
-        sendScaledMaximum(row, h, weight, message, send.target[direction] + k, change);
+        sendScaledMaximum(row, h, weight, scratch.message, send.target[direction] + k,
+                          change);
     }
   }
   return hn::GetLane(hn::MaxOfLanes(d, change));
@@ -201,17 +178,66 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace pcl_mrf_planes {
 
-HWY_EXPORT(SendRow_);
+HWY_EXPORT(SendMessages);
 HWY_EXPORT(MapRow);
 
-std::uint16_t sendRow(const SiteRow& row, const SendRow& send)
+namespace {
+
+constexpr std::size_t VECTOR = CheckerboardLayout::PADDING; // elements, at most
+constexpr std::size_t ALIGNMENT = 64;                       // bytes, of any vector
+
+} // namespace
+
+KernelScratch::KernelScratch(int labels, int layout_stride)
+: active(static_cast<std::size_t>(labels))
+, row(static_cast<std::size_t>(layout_stride))
+, buffer_(3 * static_cast<std::size_t>(labels) * VECTOR + ALIGNMENT)
 {
-  return HWY_DYNAMIC_DISPATCH(SendRow_)(row, send);
+  const auto address = reinterpret_cast<std::uintptr_t>(buffer_.data());
+  belief = reinterpret_cast<std::uint16_t*>((address + ALIGNMENT - 1) / ALIGNMENT *
+                                            ALIGNMENT);
+  h = belief + static_cast<std::size_t>(labels) * VECTOR;
+  message = h + static_cast<std::size_t>(labels) * VECTOR;
 }
 
-void mapRow(const SiteRow& row, std::uint16_t* labels)
+SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
+                    std::uint16_t least_pairwise, int colour, int y)
 {
-  HWY_DYNAMIC_DISPATCH(MapRow)(row, labels);
+  SiteRow row;
+  row.sites = layout.sitesInRow(y, colour);
+  row.labels = prices.labels();
+  row.label_stride = layout.stride;
+  row.model = prices.edgeModel();
+  row.pairwise = prices.pairwiseMatrix();
+  row.scale = prices.scaleMatrix();
+  row.least_pairwise = least_pairwise;
+  return row;
+}
+
+void alignToSenders(SendRow& send, int colour, int y)
+{
+  // The neighbour to the left of site k is number k - 1 of the other colour where this
+  // row starts at x = 0, and number k where it starts at x = 1.
+  const int left = CheckerboardLayout::firstColumn(y, colour) - 1;
+  send.target[LEFT] += left;
+  send.weight[LEFT] += left;
+  send.target[RIGHT] += left + 1;
+}
+
+std::uint16_t sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
+{
+  return HWY_DYNAMIC_DISPATCH(SendMessages)(row, send, scratch);
+}
+
+void mapSites(const SiteRow& row, int width, int colour, int y, KernelScratch& scratch,
+              std::vector<std::uint16_t>& labels)
+{
+  HWY_DYNAMIC_DISPATCH(MapRow)(row, scratch.row.data());
+  std::uint16_t* out = labels.data() +
+                       static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                       CheckerboardLayout::firstColumn(y, colour);
+  for (int k = 0; k < row.sites; ++k)
+    out[2 * k] = scratch.row[static_cast<std::size_t>(k)];
 }
 
 } // namespace pcl_mrf_planes

@@ -1,37 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_mrf_planes/grid_field.h>
+#include <pcl_mrf_planes/field_rows.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace pcl_mrf_planes {
+
+/// Directions of a neighbour; a message that goes one way comes from the opposite one.
+enum Direction { LEFT, RIGHT, ABOVE, BELOW, DIRECTIONS };
+constexpr int opposite(int direction)
+{
+  return direction ^ 1;
+}
 
 /// One row of sites of one colour, as the message kernels see it. A row pointer leads
 /// to label 0; label l is l * label_stride elements further on.
 struct SiteRow {
-  int sites;        ///< sites of this colour in the row
-  int labels;       ///< L
-  int label_stride; ///< elements from a label's row to the next label's
-  EdgeModel model;
-  std::uint16_t least_pairwise; ///< least cost of two different labels
-  const std::uint16_t* data;
-  const std::uint16_t* received[4]; ///< by direction
-  const std::uint16_t* pairwise;    ///< L x L
-  const std::uint16_t* scale;       ///< L x L
+  int sites = 0;        ///< sites of this colour in the row
+  int labels = 0;       ///< L
+  int label_stride = 0; ///< elements from a label's row to the next label's
+  EdgeModel model = EdgeModel::SOFT_THRESHOLD;
+  const std::uint16_t* pairwise = nullptr; ///< L x L
+  const std::uint16_t* scale = nullptr;    ///< L x L
+  std::uint16_t least_pairwise = 0;        ///< least cost of two different labels
+  const std::uint16_t* data = nullptr;
+  const std::uint16_t* received[DIRECTIONS] = {}; ///< by the sender's direction
 };
 
-/// Where the messages of a row go: for each direction the receiving row (nullptr: there
-/// is none), and the weights of the edges, both lined up with the senders.
+/// Where the messages of a row go, for each direction: the row that receives them
+/// (nullptr: there is none) and the weights of the edges.
 struct SendRow {
-  std::uint16_t* target[4]; ///< by direction of the receiver as seen from the sender
-  const std::uint16_t* weight[4];
+  std::uint16_t* target[DIRECTIONS] = {};
+  const std::uint16_t* weight[DIRECTIONS] = {};
 };
+
+/// Working memory of the kernels, for one thread.
+struct KernelScratch {
+  explicit KernelScratch(int labels, int layout_stride);
+
+  std::uint16_t* belief;  ///< a vector for each label
+  std::uint16_t* h;       ///< a vector for each label
+  std::uint16_t* message; ///< a vector for each label
+  std::vector<int> active;
+  std::vector<std::uint16_t> row; ///< a row of labels
+
+private:
+  std::vector<std::uint16_t> buffer_;
+};
+
+/// The parts of a SiteRow that do not depend on where its messages are kept.
+SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
+                    std::uint16_t least_pairwise, int colour, int y);
+
+/// Shifts rows of the other colour so that each element lines up with its sender.
+/// Before, weight[LEFT] holds the right edges of the other colour's sites of the same
+/// row.
+void alignToSenders(SendRow& send, int colour, int y);
 
 /// Sends the messages of one row of sites; returns the largest change of a message.
-std::uint16_t sendRow(const SiteRow& row, const SendRow& send);
+std::uint16_t sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch);
 
-/// The label of least belief cost of every site of the row.
-void mapRow(const SiteRow& row, std::uint16_t* labels);
+/// Writes the label of least belief cost of every site of the row into the label image.
+void mapSites(const SiteRow& row, int width, int colour, int y, KernelScratch& scratch,
+              std::vector<std::uint16_t>& labels);
 
 } // namespace pcl_mrf_planes

@@ -15,31 +15,41 @@ CheckerboardLayout::CheckerboardLayout(int grid_width, int grid_height)
   stride = PADDING + (sites + PADDING - 1) / PADDING * PADDING + PADDING;
 }
 
-GridField::GridField(int width, int height, int labels, EdgeModel model)
-: layout_(width, height)
-, labels_(labels)
-, model_(model)
+GridField::GridField(const CheckerboardLayout& layout, const PairPrices& prices)
+: layout_(layout)
+, prices_(prices)
 {
-  const std::size_t pairs =
-      static_cast<std::size_t>(labels) * static_cast<std::size_t>(labels);
   for (int colour = 0; colour < 2; ++colour) {
-    data_[colour].assign(layout_.bufferSize(labels), 0);
-    right_[colour].assign(layout_.bufferSize(), NO_EDGE);
-    down_[colour].assign(layout_.bufferSize(), NO_EDGE);
+    data_[colour].assign(layout_.bufferSize(height(), labels()), 0);
+    right_[colour].assign(layout_.bufferSize(height()), NO_EDGE);
+    down_[colour].assign(layout_.bufferSize(height()), NO_EDGE);
   }
-  pairwise_.assign(pairs, 0);
-  scale_.assign(pairs, 0);
 }
 
-std::uint32_t GridField::price(int a, int b, std::uint16_t weight) const
+GridField::GridField(const FieldRows& rows)
+: GridField(rows.layout(), rows.prices())
 {
-  if (weight == NO_EDGE)
-    return 0;
-  const std::uint32_t cost = pairwise(a, b);
-  if (model_ == EdgeModel::SOFT_THRESHOLD)
-    return cost > weight ? cost - weight : 0;
-  const std::uint32_t scaled = (static_cast<std::uint32_t>(scale(a, b)) * weight) >> 16;
-  return std::max(cost, scaled);
+  for (int y = 0; y < height(); ++y) {
+    FieldRow row{};
+    for (int colour = 0; colour < 2; ++colour) {
+      row.data[colour] = data_[colour].data() + layout_.rowStart(y, labels());
+      row.right[colour] = right_[colour].data() + layout_.rowStart(y);
+      row.down[colour] = down_[colour].data() + layout_.rowStart(y);
+    }
+    rows.fillRow(y, row);
+  }
+}
+
+void GridField::fillRow(int y, const FieldRow& row) const
+{
+  for (int colour = 0; colour < 2; ++colour) {
+    const int sites = layout_.sitesInRow(y, colour);
+    for (int l = 0; l < labels(); ++l)
+      std::copy_n(dataRow(colour, y, l), sites,
+                  row.data[colour] + static_cast<std::ptrdiff_t>(l) * layout_.stride);
+    std::copy_n(rightRow(colour, y), sites, row.right[colour]);
+    std::copy_n(downRow(colour, y), sites, row.down[colour]);
+  }
 }
 
 std::uint64_t GridField::energy(const std::vector<std::uint16_t>& labelling) const

@@ -15,6 +15,18 @@ void OrganizedPoints::resize(int new_width, int new_height)
   valid.assign(count, 0);
 }
 
+const float* OrganizedPoints::depthRow(int row, std::vector<float>& storage) const
+{
+  const std::size_t start =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
+  if (depth_measure != DepthMeasure::RANGE)
+    return &z[start];
+  storage.resize(static_cast<std::size_t>(width));
+  for (std::size_t i = 0; i < storage.size(); ++i)
+    storage[i] = depth(start + i);
+  return storage.data();
+}
+
 void OrganizedPoints::resolveDepthMeasure(DepthMeasure wanted)
 {
   depth_measure = wanted;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/plane_field.h>
 
-#include "data_term_kernel.h"
-#include "threads.h"
+#include "field_kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,10 +41,6 @@ PlaneField::PlaneField(const OrganizedPoints& points, std::vector<Plane> planes,
 , planes_(std::move(planes))
 , parameters_(parameters)
 {
-  depth_.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    depth_[i] = points.depth(i);
-
   const auto labels = static_cast<Eigen::Index>(planes_.size());
   dissimilarity_.resize(labels, labels);
   for (Eigen::Index a = 0; a < labels; ++a)
@@ -57,11 +52,9 @@ PlaneField::PlaneField(const OrganizedPoints& points, std::vector<Plane> planes,
                               planes_[static_cast<std::size_t>(b)], parameters_.beta);
 
   const bool scaled = parameters_.smoothness == Smoothness::PREDICTED_DEPTH;
-  field_ = GridField(points.width, points.height, labelCount(planes_),
-                     scaled ? EdgeModel::SCALED_MAXIMUM : EdgeModel::SOFT_THRESHOLD);
+  prices_ = PairPrices(labelCount(planes_),
+                       scaled ? EdgeModel::SCALED_MAXIMUM : EdgeModel::SOFT_THRESHOLD);
   choosePrices(scaled ? largestDepthStep() : 0.0);
-  fillData();
-  fillEdges();
 }
 
 void PlaneField::choosePrices(double largest_depth_step)
@@ -78,74 +71,87 @@ void PlaneField::choosePrices(double largest_depth_step)
 
   for (int a = 0; a < labels; ++a)
     for (int b = 0; b <= a; ++b) {
-      field_.setPairwise(a, b, rounded(smoothnessTerm(a, b, 0.0) * units_));
+      prices_.setPairwise(a, b, rounded(smoothnessTerm(a, b, 0.0) * units_));
       // |1 - c| lies between 0 and 2; the edge weights hold 2 |dz|.
       const double scale = depthScale(planes_[static_cast<std::size_t>(a)],
                                       planes_[static_cast<std::size_t>(b)]);
-      field_.setScale(a, b, rounded(scale * 32768.0));
+      prices_.setScale(a, b, rounded(scale * 32768.0));
     }
 }
 
-void PlaneField::fillData()
+void PlaneField::fillRow(int y, const FieldRow& row) const
 {
-  const CheckerboardLayout& layout = field_.layout();
+  fillData(y, row);
+  fillEdges(y, row);
+}
+
+void PlaneField::fillData(int y, const FieldRow& row) const
+{
   const auto width = static_cast<std::size_t>(points_.width);
-  parallelRows(points_.height, parameters_.number_of_threads, [&](int y) {
-    std::vector<std::uint16_t> row(width);
-    const std::size_t start = static_cast<std::size_t>(y) * width;
-    for (int l = 0; l < field_.labels(); ++l) {
-      const Plane& plane = planes_[static_cast<std::size_t>(l)];
-      const DataTerm term = {static_cast<float>(plane.normal.x()),
-                             static_cast<float>(plane.normal.y()),
-                             static_cast<float>(plane.normal.z()),
-                             static_cast<float>(plane.d),
-                             static_cast<float>(parameters_.tau),
-                             static_cast<float>(parameters_.lambda * units_)};
-      dataTermRow(term, &points_.x[start], &points_.y[start], &points_.z[start], width,
-                  row.data());
-      for (std::size_t x = 0; x < width; ++x) // an invalid point is no site: cost 0
-        row[x] = points_.valid[start + x] != 0 ? row[x] : std::uint16_t{0};
-      for (int colour = 0; colour < 2; ++colour) {
-        const std::uint16_t* in = &row[0] + CheckerboardLayout::firstColumn(y, colour);
-        std::uint16_t* out = field_.dataRow(colour, y, l);
-        const int sites = layout.sitesInRow(y, colour);
-        for (int k = 0; k < sites; ++k)
-          out[k] = in[2 * k];
-      }
-    }
-  });
+  const std::size_t start = static_cast<std::size_t>(y) * width;
+  std::vector<std::uint16_t> costs(width +
+                                   1); // one more: a row of width 1 has no odd site
+  for (int l = 0; l < prices_.labels(); ++l) {
+    const Plane& plane = planes_[static_cast<std::size_t>(l)];
+    const DataTerm term = {static_cast<float>(plane.normal.x()),
+                           static_cast<float>(plane.normal.y()),
+                           static_cast<float>(plane.normal.z()),
+                           static_cast<float>(plane.d),
+                           static_cast<float>(parameters_.tau),
+                           static_cast<float>(parameters_.lambda * units_)};
+    dataTermRow(term, &points_.x[start], &points_.y[start], &points_.z[start],
+                &points_.valid[start], width, costs.data());
+    split(costs.data(), y, row.data, static_cast<std::ptrdiff_t>(l) * layout_.stride);
+  }
 }
 
-std::uint16_t PlaneField::edgeWeight(std::size_t from, std::size_t to) const
+double PlaneField::edgeScale() const
 {
-  if (points_.valid[from] == 0 || points_.valid[to] == 0)
-    return GridField::NO_EDGE;
-  const double step = std::abs(static_cast<double>(depth_[from]) - depth_[to]);
   switch (parameters_.smoothness) {
   case Smoothness::HYBRID:
-    return rounded(step * units_);
+    return units_;
   case Smoothness::PREDICTED_DEPTH:
-    return rounded(2.0 * step * units_);
+    return 2.0 * units_; // |1 - c| is held halved
   case Smoothness::POTTS:
   case Smoothness::DISSIMILARITY:
     break;
   }
-  return 0;
+  return 0.0; // the depth has no say
 }
 
-void PlaneField::fillEdges()
+void PlaneField::fillEdges(int y, const FieldRow& row) const
 {
   const auto width = static_cast<std::size_t>(points_.width);
-  parallelRows(points_.height, parameters_.number_of_threads, [&](int y) {
-    for (int x = 0; x < points_.width; ++x) {
-      const std::size_t i =
-          static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-      if (x + 1 < points_.width)
-        field_.setRightEdge(x, y, edgeWeight(i, i + 1));
-      if (y + 1 < points_.height)
-        field_.setDownEdge(x, y, edgeWeight(i, i + width));
-    }
-  });
+  const std::size_t start = static_cast<std::size_t>(y) * width;
+  const auto scale = static_cast<float>(edgeScale());
+  std::vector<std::uint16_t> weights(width + 1, PairPrices::NO_EDGE);
+  std::vector<float> range;
+  const float* depth = points_.depthRow(y, range);
+  const std::uint8_t* valid = &points_.valid[start];
+  edgeWeightRow(depth, depth + 1, valid, valid + 1, scale, width - 1, weights.data());
+  weights[width - 1] = PairPrices::NO_EDGE;
+  split(weights.data(), y, row.right, 0);
+
+  if (y + 1 < points_.height) {
+    std::vector<float> range_below;
+    edgeWeightRow(depth, points_.depthRow(y + 1, range_below), valid, valid + width,
+                  scale, width, weights.data());
+  }
+  else
+    std::fill(weights.begin(), weights.end(), PairPrices::NO_EDGE);
+  split(weights.data(), y, row.down, 0);
+}
+
+void PlaneField::split(const std::uint16_t* costs, int y,
+                       std::uint16_t* const colours[2], std::ptrdiff_t offset) const
+{
+  for (int colour = 0; colour < 2; ++colour) {
+    const std::uint16_t* in = costs + CheckerboardLayout::firstColumn(y, colour);
+    std::uint16_t* out = colours[colour] + offset;
+    const int sites = layout_.sitesInRow(y, colour);
+    for (int k = 0; k < sites; ++k)
+      out[k] = in[2 * k];
+  }
 }
 
 double PlaneField::largestDepthStep() const
@@ -154,8 +160,8 @@ double PlaneField::largestDepthStep() const
   double high = -low;
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (points_.valid[i] != 0) {
-      low = std::min(low, static_cast<double>(depth_[i]));
-      high = std::max(high, static_cast<double>(depth_[i]));
+      low = std::min(low, static_cast<double>(points_.depth(i)));
+      high = std::max(high, static_cast<double>(points_.depth(i)));
     }
   return std::max(0.0, high - low);
 }
@@ -190,8 +196,9 @@ FieldEnergy PlaneField::energy(const std::vector<std::uint16_t>& labels) const
   const auto width = static_cast<std::size_t>(points_.width);
   const auto edge = [&](std::size_t i, std::size_t j) {
     if (points_.valid[j] != 0)
-      sum.smoothness += smoothnessTerm(labels[i], labels[j],
-                                       static_cast<double>(depth_[i]) - depth_[j]);
+      sum.smoothness +=
+          smoothnessTerm(labels[i], labels[j],
+                         static_cast<double>(points_.depth(i)) - points_.depth(j));
   };
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (points_.valid[i] == 0)

@@ -2,6 +2,7 @@
 #include <pcl_mrf_planes/plane_segmentation.h>
 
 #include <pcl_mrf_planes/belief_propagation.h>
+#include <pcl_mrf_planes/row_propagation.h>
 
 #include "stage_timer.h"
 
@@ -19,18 +20,29 @@ std::vector<Plane> labelPlanes(const PlaneClusters& clusters)
   return planes;
 }
 
-/// MAP labels by belief propagation, section IV-D, with the energy on the way if asked.
+/// The tolerance in 16-bit units; -1 for never.
+int toleranceUnits(double tolerance, double units_per_energy)
+{
+  return tolerance < 0.0
+             ? -1
+             : static_cast<int>(std::fmin(65535.0, tolerance * units_per_energy));
+}
+
+/// MAP labels by belief propagation, section IV-D. Where nothing is asked for between
+/// the iterations they run row by row; otherwise one after the other. The labels are
+/// the same.
 std::vector<std::uint16_t> inferLabels(const PlaneField& field,
                                        const Parameters& parameters,
                                        SegmentationReport& report)
 {
-  BeliefPropagation propagation(field.field(), parameters.number_of_threads);
-  // One unit is lost to rounding; a tolerance of zero asks for settled messages.
   const int tolerance =
-      parameters.convergence_tolerance < 0.0
-          ? -1
-          : static_cast<int>(std::fmin(65535.0, parameters.convergence_tolerance *
-                                                    field.unitsPerEnergy()));
+      toleranceUnits(parameters.convergence_tolerance, field.unitsPerEnergy());
+  if (tolerance < 0 && !parameters.compute_energy) {
+    report.iterations = parameters.iterations;
+    return propagateRows(field, parameters.iterations, parameters.number_of_threads);
+  }
+  const GridField grid = field.toGridField();
+  BeliefPropagation propagation(grid, parameters.number_of_threads);
   if (!parameters.compute_energy) {
     report.iterations = propagation.iterate(parameters.iterations, tolerance);
     return propagation.mapLabels();

@@ -66,6 +66,10 @@ struct OrganizedPoints {
     return std::sqrt(x[index] * x[index] + y[index] * y[index] + z[index] * z[index]);
   }
 
+  /** \brief Depths of row \a row; \a storage is used where they are not stored already.
+   */
+  const float* depthRow(int row, std::vector<float>& storage) const;
+
   /** \brief Depth of any point of the sensor frame in metres. */
   double depthOf(const Eigen::Vector3d& point) const
   {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,14 +25,15 @@ struct FieldEnergy {
 /** \brief The Markov random field of section IV-C: a site for every valid point, an
  * edge between every two valid 4-neighbours, a label for every plane.
  *
- * field() is the same energy in 16-bit units, one unit being 1 / unitsPerEnergy(). The
- * scale is the largest for which no sum in the belief propagation can overflow, so each
- * term is off by at most half a unit: two labellings whose energies differ by more than
- * (sites + edges) / unitsPerEnergy() are ordered alike in both.
+ * As FieldRows it is the same energy in 16-bit units, one being 1 / unitsPerEnergy().
+ * The scale is the largest for which no sum in the belief propagation can overflow, so
+ * each term is off by at most half a unit: two labellings whose energies differ by more
+ * than (sites + edges) / unitsPerEnergy() are ordered alike in both.
  */
-class PlaneField {
+class PlaneField : public FieldRows {
 public:
-  /** \brief Build the field. O(points * planes)
+  /** \brief Prepare the prices. O(points + planes^2); the data terms are computed where
+   * they are asked for.
    * \param[in] points the cloud, must outlive this object
    * \param[in] planes the L label planes, at least one
    * \param[in] parameters lambda, tau, beta, gamma and the smoothness term
@@ -39,8 +41,12 @@ public:
   PlaneField(const OrganizedPoints& points, std::vector<Plane> planes,
              const Parameters& parameters);
 
-  /** \brief The energy in 16-bit units, as BeliefPropagation takes it. */
-  const GridField& field() const { return field_; }
+  /** \brief All the costs in 16-bit units at once. O(points * planes) */
+  GridField toGridField() const { return GridField(*this); }
+
+  const CheckerboardLayout& layout() const override { return layout_; }
+  const PairPrices& prices() const override { return prices_; }
+  void fillRow(int y, const FieldRow& row) const override;
 
   /** \brief 16-bit units in one unit of energy. */
   double unitsPerEnergy() const { return units_; }
@@ -61,18 +67,20 @@ public:
 
 private:
   void choosePrices(double largest_depth_step);
-  void fillData();
-  void fillEdges();
+  void fillData(int y, const FieldRow& row) const;
+  void fillEdges(int y, const FieldRow& row) const;
+  void split(const std::uint16_t* costs, int y, std::uint16_t* const colours[2],
+             std::ptrdiff_t offset) const;
+  double edgeScale() const;
   double largestDepthStep() const;
-  std::uint16_t edgeWeight(std::size_t from, std::size_t to) const;
 
   const OrganizedPoints& points_;
   std::vector<Plane> planes_;
   Parameters parameters_;
   Eigen::MatrixXd dissimilarity_; ///< equation (9) for every pair of labels
-  std::vector<float> depth_;
   double units_ = 1.0;
-  GridField field_;
+  CheckerboardLayout layout_;
+  PairPrices prices_;
 };
 
 } // namespace pcl_mrf_planes
