@@ -40,6 +40,7 @@ PlaneField::PlaneField(const OrganizedPoints& points, std::vector<Plane> planes,
 : points_(points)
 , planes_(std::move(planes))
 , parameters_(parameters)
+, layout_(points.width, points.height)
 {
   const auto labels = static_cast<Eigen::Index>(planes_.size());
   dissimilarity_.resize(labels, labels);
