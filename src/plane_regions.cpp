@@ -7,48 +7,102 @@
 #include <cmath>
 #include <cstddef>
 #include <tuple>
+#include <utility>
 
 namespace pcl_mrf_planes {
 
 namespace {
+
+/// What is gathered of one label on the way through the image.
+struct RegionSums {
+  std::vector<int> indices;
+  ScatterMatrix scatter;
+  double area = 0.0;
+};
 
 Eigen::Vector3d pointAt(const OrganizedPoints& points, std::size_t i)
 {
   return {points.x[i], points.y[i], points.z[i]};
 }
 
-/// Adds the area of the square of points whose upper left corner is \a i to the label
-/// that at least three of its corners share. The cross product's component along the
-/// normal is signed, so that noise cancels between neighbouring squares.
-void addSquare(const OrganizedPoints& points, const std::vector<Plane>& planes,
-               const std::vector<std::uint16_t>& labels, std::size_t i,
-               std::vector<double>& areas)
+/// Adds the points of a row to the sums of their labels, run by run.
+void addRow(const OrganizedPoints& points, const std::vector<std::uint16_t>& labels,
+            std::size_t start, std::size_t end, std::vector<RegionSums>& sums)
 {
-  const auto width = static_cast<std::size_t>(points.width);
-  const std::size_t corners[4] = {i, i + 1, i + width + 1, i + width}; // around
-  for (int skipped = -1; skipped < 4; ++skipped) {
-    // All four corners first, then each triangle.
-    std::size_t ring[4];
-    int count = 0;
-    for (int k = 0; k < 4; ++k)
-      if (k != skipped)
-        ring[count++] = corners[k];
-    const std::uint16_t label = labels[ring[0]];
-    const bool one_label = std::all_of(ring, ring + count, [&](std::size_t corner) {
-      return points.valid[corner] != 0 && labels[corner] == label;
-    });
-    if (!one_label)
+  for (std::size_t i = start; i < end;) {
+    if (points.valid[i] == 0) {
+      ++i;
       continue;
-    const Eigen::Vector3d first = pointAt(points, ring[0]);
-    const Eigen::Vector3d last = pointAt(points, ring[count - 1]);
-    const Eigen::Vector3d twice_area =
-        count == 4 ? (pointAt(points, ring[2]) - first)
-                         .cross(last - pointAt(points, ring[1]))
-                         .eval()
-                   : (pointAt(points, ring[1]) - first).cross(last - first).eval();
-    areas[label] += 0.5 * twice_area.dot(planes[label].normal);
-    return;
+    }
+    const std::uint16_t label = labels[i];
+    ScatterMatrix run;
+    std::vector<int>& indices = sums[label].indices;
+    for (; i < end && points.valid[i] != 0 && labels[i] == label; ++i) {
+      run.add(points.x[i], points.y[i], points.z[i]);
+      indices.push_back(static_cast<int>(i));
+    }
+    sums[label].scatter += run;
   }
+}
+
+/// Area of the surface between four neighbouring points, or three of them, in the plane
+/// of their label. The component of the cross product along the normal has a sign, so
+/// that noise cancels between neighbouring squares.
+///
+/// a b
+/// c d
+void addSquare(const OrganizedPoints& points, const std::vector<Plane>& planes,
+               const std::vector<std::uint16_t>& labels, std::size_t a,
+               std::vector<RegionSums>& sums)
+{
+  const std::size_t b = a + 1;
+  const std::size_t c = a + static_cast<std::size_t>(points.width);
+  const std::size_t d = c + 1;
+  const auto joined = [&](std::size_t i, std::size_t j) {
+    return points.valid[i] != 0 && points.valid[j] != 0 && labels[i] == labels[j];
+  };
+  const bool ab = joined(a, b);
+  const bool cd = joined(c, d);
+  const bool ac = joined(a, c);
+  const bool bd = joined(b, d);
+  const auto edge = [&](std::size_t from, std::size_t to) {
+    return Eigen::Vector3d(pointAt(points, to) - pointAt(points, from));
+  };
+  const auto add = [&](std::size_t corner, const Eigen::Vector3d& u,
+                       const Eigen::Vector3d& v) {
+    const std::uint16_t label = labels[corner];
+    sums[label].area += 0.5 * planes[label].normal.dot(u.cross(v));
+  };
+  if (ab && cd && ac)
+    add(a, edge(a, d), edge(b, c)); // the diagonals give the whole square
+  else if (ab && ac)
+    add(a, edge(a, b), edge(a, c));
+  else if (ab && bd)
+    add(b, edge(b, d), edge(b, a));
+  else if (cd && ac)
+    add(c, edge(c, a), edge(c, d));
+  else if (cd && bd)
+    add(d, edge(d, c), edge(d, b));
+}
+
+PlaneRegion makeRegion(const Plane& plane, std::size_t label, RegionSums&& sums)
+{
+  PlaneRegion region;
+  region.plane = plane;
+  region.label = static_cast<int>(label);
+  region.indices = std::move(sums.indices);
+  region.area = std::abs(sums.area);
+  region.rms = sums.scatter.rmsDistance(plane);
+  region.centroid = sums.scatter.centroid();
+  region.covariance = sums.scatter.covariance();
+  return region;
+}
+
+/// Largest area first; then most points; then the first point.
+auto rank(const PlaneRegion& region)
+{
+  return std::make_tuple(-region.area, -static_cast<double>(region.indices.size()),
+                         region.indices.front());
 }
 
 } // namespace
@@ -58,45 +112,24 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<std::uint16_t>& labels,
                                        int min_points)
 {
-  const std::size_t count = planes.size();
-  std::vector<PlaneRegion> regions(count);
-  std::vector<ScatterMatrix> sums(count);
-  std::vector<double> areas(count, 0.0);
-  std::vector<double> squares(count, 0.0);
+  std::vector<RegionSums> sums(planes.size());
   const auto width = static_cast<std::size_t>(points.width);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points.valid[i] != 0) {
-      const std::uint16_t l = labels[i];
-      const double distance = planes[l].distance(pointAt(points, i));
-      regions[l].indices.push_back(static_cast<int>(i));
-      sums[l].add(points.x[i], points.y[i], points.z[i]);
-      squares[l] += distance * distance;
-    }
-    if ((i + 1) % width != 0 && i + width < points.size())
-      addSquare(points, planes, labels, i, areas);
+  for (std::size_t row = 0; row < points.size(); row += width) {
+    addRow(points, labels, row, row + width, sums);
+    if (row + width < points.size())
+      for (std::size_t i = row; i + 1 < row + width; ++i)
+        addSquare(points, planes, labels, i, sums);
   }
 
-  std::vector<PlaneRegion> kept;
-  for (std::size_t l = 0; l < count; ++l) {
-    PlaneRegion& region = regions[l];
-    if (region.indices.empty() ||
-        region.indices.size() < static_cast<std::size_t>(min_points))
-      continue;
-    region.plane = planes[l];
-    region.label = static_cast<int>(l);
-    region.area = std::abs(areas[l]);
-    region.rms = std::sqrt(squares[l] / sums[l].n);
-    region.centroid = sums[l].centroid();
-    region.covariance = sums[l].covariance();
-    kept.push_back(std::move(region));
-  }
-  std::sort(kept.begin(), kept.end(), [](const PlaneRegion& p, const PlaneRegion& q) {
-    return std::make_tuple(-p.area, -static_cast<double>(p.indices.size()),
-                           p.indices[0]) <
-           std::make_tuple(-q.area, -static_cast<double>(q.indices.size()),
-                           q.indices[0]);
-  });
-  return kept;
+  std::vector<PlaneRegion> regions;
+  for (std::size_t l = 0; l < planes.size(); ++l)
+    if (!sums[l].indices.empty() &&
+        sums[l].indices.size() >= static_cast<std::size_t>(min_points))
+      regions.push_back(makeRegion(planes[l], l, std::move(sums[l])));
+  std::sort(
+      regions.begin(), regions.end(),
+      [](const PlaneRegion& p, const PlaneRegion& q) { return rank(p) < rank(q); });
+  return regions;
 }
 
 std::vector<std::uint16_t> regionLabels(const OrganizedPoints& points,

@@ -57,6 +57,13 @@ Eigen::Matrix3d ScatterMatrix::covariance() const
   return moments / n - mean * mean.transpose();
 }
 
+double ScatterMatrix::rmsDistance(const Plane& plane) const
+{
+  Eigen::Vector4d alpha;
+  alpha << plane.normal, plane.d;
+  return std::sqrt(std::max(0.0, alpha.dot(matrix() * alpha)) / n);
+}
+
 PlaneFitResult fitPlane(const ScatterMatrix& sums, PlaneFit fit)
 {
   PlaneFitResult result;
