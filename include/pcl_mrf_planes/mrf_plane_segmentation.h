@@ -3,6 +3,7 @@
 
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/plane_segmentation.h>
+#include <pcl_mrf_planes/sensor_pose.h>
 
 #include <pcl/ModelCoefficients.h>
 #include <pcl/PointIndices.h>
@@ -33,8 +34,10 @@ namespace pcl {
  * largest area first.
  *
  * The cloud's sensor_origin_ and sensor_orientation_ say where the sensor was; normals
- * point towards it. A cloud in world coordinates must carry them: depth, noise and the
- * offsets that the merging compares are measured from there.
+ * point towards it. A cloud in world coordinates should carry them: depth, noise and
+ * the offsets that the merging compares are measured from there. If the stated origin
+ * cannot be true (a cloud moved far away without it), the pose is found from the cloud
+ * itself.
  *
  * Errors (no cloud, not organized, bad indices, bad parameters) are reported through
  * PCL_ERROR and leave all outputs empty; no exception leaves the class.
@@ -241,18 +244,15 @@ protected:
   virtual const char* getClassName() const { return "MRFPlaneSegmentation"; }
 
 private:
-  /// A rigid motion between the cloud's frame and the sensor's.
-  struct SensorPose {
-    Eigen::Matrix3d rotation;
-    Eigen::Vector3d origin;
-  };
+  using SensorPose = pcl_mrf_planes::SensorPose;
 
   /// Runs \a fill on a good result; reports what went wrong otherwise.
   template <typename Fill>
   void run(const Fill& fill);
 
   bool checkInput() const;
-  SensorPose sensorPose() const;
+  SensorPose statedPose() const;
+  void findPose();
   void readPoints();
   void limitToIndices();
   void fillModels(std::vector<ModelCoefficients>& model_coefficients,
@@ -264,6 +264,7 @@ private:
 
   Parameters parameters_;
   bool project_points_ = false;
+  SensorPose pose_; ///< of the last run
   pcl_mrf_planes::OrganizedPoints points_;
   pcl_mrf_planes::PlaneSegmentation result_;
 };

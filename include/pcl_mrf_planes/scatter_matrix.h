@@ -46,7 +46,8 @@ struct ScatterMatrix {
   /** \brief Covariance of the points (divided by n), square metres; n must be > 0. */
   Eigen::Matrix3d covariance() const;
 
-  /** \brief Root mean square distance of the points to a plane, metres; n must be > 0. */
+  /** \brief Root mean square distance of the points to a plane, metres; n must be > 0.
+   */
   double rmsDistance(const Plane& plane) const;
 };
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -45,12 +46,11 @@ void MRFPlaneSegmentation<PointT>::segment(
   run([&] {
     fillModels(model_coefficients, inlier_indices);
     fillLabels(labels, label_indices);
-    const SensorPose pose = sensorPose();
     for (const auto& region : result_.regions) {
-      const Eigen::Vector3d centroid = pose.rotation * region.centroid + pose.origin;
+      const Eigen::Vector3d centroid = pose_.rotation * region.centroid + pose_.origin;
       centroids.push_back(centroid.homogeneous().template cast<float>());
       const Eigen::Matrix3d covariance =
-          pose.rotation * region.covariance * pose.rotation.transpose();
+          pose_.rotation * region.covariance * pose_.rotation.transpose();
       covariances.push_back(covariance.template cast<float>());
     }
   });
@@ -158,7 +158,7 @@ bool MRFPlaneSegmentation<PointT>::checkInput() const
 
 template <typename PointT>
 typename MRFPlaneSegmentation<PointT>::SensorPose
-MRFPlaneSegmentation<PointT>::sensorPose() const
+MRFPlaneSegmentation<PointT>::statedPose() const
 {
   Eigen::Quaterniond orientation = input_->sensor_orientation_.template cast<double>();
   const double norm = orientation.norm();
@@ -173,13 +173,40 @@ MRFPlaneSegmentation<PointT>::sensorPose() const
 }
 
 template <typename PointT>
+void MRFPlaneSegmentation<PointT>::findPose()
+{
+  pose_ = statedPose();
+  // A few thousand points, spread over the image, say where the sensor was.
+  constexpr std::size_t SAMPLES = 2000;
+  const std::size_t step = std::max<std::size_t>(1, indices_->size() / SAMPLES);
+  std::vector<pcl_mrf_planes::Sighting> sightings;
+  for (std::size_t k = 0; k < indices_->size(); k += step) {
+    const auto i = static_cast<std::size_t>((*indices_)[k]);
+    const PointT& p = (*input_)[i];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+      sightings.push_back({Eigen::Vector3d(p.x, p.y, p.z),
+                           Eigen::Vector2d(static_cast<double>(i % input_->width),
+                                           static_cast<double>(i / input_->width))});
+  }
+  if (pcl_mrf_planes::plausibleOrigin(sightings, pose_.origin))
+    return;
+  const bool found = pcl_mrf_planes::estimatePinholePose(sightings, pose_);
+  PCL_WARN(
+      "[pcl::%s::segment] The cloud cannot have been seen from its sensor_origin_; "
+      "%s.\n",
+      getClassName(),
+      found ? "found the sensor's pose from the cloud; set it to be exact"
+            : "set sensor_origin_ and sensor_orientation_, the result is doubtful");
+}
+
+template <typename PointT>
 void MRFPlaneSegmentation<PointT>::readPoints()
 {
+  findPose();
   points_.resize(static_cast<int>(input_->width), static_cast<int>(input_->height));
-  const SensorPose pose = sensorPose();
-  const Eigen::Matrix3d to_sensor = pose.rotation.transpose();
-  const bool in_sensor_frame =
-      pose.origin.isZero(0.0) && to_sensor.isIdentity(0.0); // the usual case: no motion
+  const Eigen::Matrix3d to_sensor = pose_.rotation.transpose();
+  const bool in_sensor_frame = pose_.origin.isZero(0.0) &&
+                               to_sensor.isIdentity(0.0); // the usual case: no motion
   for (std::size_t i = 0; i < input_->size(); ++i) {
     const PointT& p = (*input_)[i];
     if (in_sensor_frame) {
@@ -187,7 +214,7 @@ void MRFPlaneSegmentation<PointT>::readPoints()
       continue;
     }
     const Eigen::Vector3d q =
-        to_sensor * (Eigen::Vector3d(p.x, p.y, p.z) - pose.origin);
+        to_sensor * (Eigen::Vector3d(p.x, p.y, p.z) - pose_.origin);
     points_.set(i, static_cast<float>(q.x()), static_cast<float>(q.y()),
                 static_cast<float>(q.z()));
   }
@@ -211,10 +238,9 @@ template <typename PointT>
 Eigen::Vector4d
 MRFPlaneSegmentation<PointT>::coefficients(const pcl_mrf_planes::Plane& plane) const
 {
-  const SensorPose pose = sensorPose();
   Eigen::Vector4d result;
-  result.head<3>() = pose.rotation * plane.normal;
-  result[3] = plane.d - result.head<3>().dot(pose.origin);
+  result.head<3>() = pose_.rotation * plane.normal;
+  result[3] = plane.d - result.head<3>().dot(pose_.origin);
   return result;
 }
 
@@ -289,7 +315,6 @@ void MRFPlaneSegmentation<PointT>::fillRegions(
     PlanarRegions& regions, std::vector<PointIndices>& boundaries) const
 {
   boundaries = contours();
-  const SensorPose pose = sensorPose();
   for (std::size_t k = 0; k < result_.regions.size(); ++k) {
     const auto& region = result_.regions[k];
     const Eigen::Vector4d model = coefficients(region.plane);
@@ -306,9 +331,9 @@ void MRFPlaneSegmentation<PointT>::fillRegions(
       }
       contour.push_back(point);
     }
-    const Eigen::Vector3d centroid = pose.rotation * region.centroid + pose.origin;
+    const Eigen::Vector3d centroid = pose_.rotation * region.centroid + pose_.origin;
     const Eigen::Matrix3d covariance =
-        pose.rotation * region.covariance * pose.rotation.transpose();
+        pose_.rotation * region.covariance * pose_.rotation.transpose();
     regions.emplace_back(centroid.template cast<float>(),
                          covariance.template cast<float>(),
                          static_cast<unsigned int>(region.indices.size()), contour,
