@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace pcl_mrf_planes::apps {
+
+/** \brief Write a file so that it is there whole or not at all.
+ *
+ * \a write gets the name of a temporary file beside the target, with the target's
+ * extension. On success that file takes the target's place; on failure it is removed
+ * and the target stays as it was. A link is followed; a device or pipe, which nothing
+ * can take the place of, is written to directly.
+ *
+ * \param[in] path the file to write
+ * \param[in] write writes the file that it is given the name of, throws if it cannot
+ * \throws std::runtime_error with a sentence that says what to do
+ */
+void writeAtomically(const std::string& path,
+                     const std::function<void(const std::string& temporary)>& write);
+
+/** \brief Throw what writeAtomically() would throw for a target that cannot be written,
+ * before the work that leads to it. Leaves no trace. */
+void checkWritable(const std::string& path);
+
+} // namespace pcl_mrf_planes::apps
