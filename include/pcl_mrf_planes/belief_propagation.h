@@ -35,7 +35,8 @@ public:
    */
   std::uint16_t sendMessages(int colour);
 
-  /** \brief Run up to \a iterations further iterations, the colours taking turns.
+  /** \brief Run further iterations, the colours taking turns.
+   * \param[in] iterations how many at most, >= 0
    * \param[in] tolerance stop once neither colour's messages changed by more than this;
    *            negative: never
    * \return iterations done

@@ -28,7 +28,8 @@ public:
 
   /** \brief A field with no edges and zero costs.
    * \param[in] width, height sites, >= 1
-   * \param[in] labels >= 1
+   * \param[in] labels number of labels, >= 1
+   * \param[in] model how weights and labels give a price
    */
   GridField(int width, int height, int labels,
             EdgeModel model = EdgeModel::SOFT_THRESHOLD)
