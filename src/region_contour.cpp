@@ -68,7 +68,9 @@ std::vector<int> traceContour(const ConnectedParts& parts, int part, int width,
 {
   const auto inside = [&](int x, int y) {
     return x >= 0 && x < width && y >= 0 && y < height &&
-           parts.part_of_point[static_cast<std::size_t>(y * width + x)] == part;
+           parts.part_of_point[static_cast<std::size_t>(y) *
+                                   static_cast<std::size_t>(width) +
+                               static_cast<std::size_t>(x)] == part;
   };
   const int start = parts.first[static_cast<std::size_t>(part)];
   std::vector<int> contour;

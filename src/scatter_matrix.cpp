@@ -73,7 +73,7 @@ PlaneFitResult fitPlane(const ScatterMatrix& sums, PlaneFit fit)
   // Both fits need the spread of the points: on a line or in one spot no plane is
   // determined, whatever the smallest eigenvector says.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(sums.covariance());
-  const Eigen::Vector3d variances = spread.eigenvalues();
+  const Eigen::Vector3d& variances = spread.eigenvalues();
   if (!(variances[1] > LINE_SHARE * variances[2]) || !(variances[2] > 0.0))
     return result;
 
