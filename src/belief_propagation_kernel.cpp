@@ -4,7 +4,7 @@
 // instruction set that the compiler knows; the best one is chosen at run time.
 #include "belief_propagation_kernel.h"
 
-#include <algorithm>
+#include <memory>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -193,9 +193,9 @@ KernelScratch::KernelScratch(int labels, int layout_stride)
 , row(static_cast<std::size_t>(layout_stride))
 , buffer_(3 * static_cast<std::size_t>(labels) * VECTOR + ALIGNMENT)
 {
-  const auto address = reinterpret_cast<std::uintptr_t>(buffer_.data());
-  belief = reinterpret_cast<std::uint16_t*>((address + ALIGNMENT - 1) / ALIGNMENT *
-                                            ALIGNMENT);
+  void* start = buffer_.data();
+  std::size_t space = buffer_.size() * sizeof(std::uint16_t);
+  belief = static_cast<std::uint16_t*>(std::align(ALIGNMENT, 1, start, space));
   h = belief + static_cast<std::size_t>(labels) * VECTOR;
   message = h + static_cast<std::size_t>(labels) * VECTOR;
 }

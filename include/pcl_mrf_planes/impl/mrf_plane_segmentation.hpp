@@ -182,11 +182,12 @@ void MRFPlaneSegmentation<PointT>::findPose()
   std::vector<pcl_mrf_planes::Sighting> sightings;
   for (std::size_t k = 0; k < indices_->size(); k += step) {
     const auto i = static_cast<std::size_t>((*indices_)[k]);
+    const std::size_t row = i / input_->width;
+    const std::size_t column = i % input_->width;
+    const Eigen::Vector2d pixel(static_cast<double>(column), static_cast<double>(row));
     const PointT& p = (*input_)[i];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
-      sightings.push_back({Eigen::Vector3d(p.x, p.y, p.z),
-                           Eigen::Vector2d(static_cast<double>(i % input_->width),
-                                           static_cast<double>(i / input_->width))});
+      sightings.push_back({Eigen::Vector3d(p.x, p.y, p.z), pixel});
   }
   if (pcl_mrf_planes::plausibleOrigin(sightings, pose_.origin))
     return;
