@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 namespace pcl_mrf_planes::apps {
@@ -17,6 +18,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+[[noreturn]] void failToCreate(const std::string& wanted, int error)
+{
+  throw std::runtime_error("cannot write '" + wanted + "': " + std::strerror(error) +
+                           "; check the permissions or name another file");
+}
+
 /// The file behind \a path, links followed.
 fs::path resolveTarget(const std::string& path)
 {
@@ -24,7 +31,8 @@ fs::path resolveTarget(const std::string& path)
     throw std::runtime_error("the name of an output file is empty; name a file");
   std::error_code error;
   fs::path target(path);
-  if (fs::is_symlink(target, error)) {
+  const bool is_stream = path.compare(0, 5, "/dev/") == 0; // /dev/stdout is a link
+  if (!is_stream && fs::is_symlink(target, error)) {
     const fs::path followed = fs::weakly_canonical(target, error);
     if (!error)
       target = followed;
@@ -36,30 +44,53 @@ fs::path resolveTarget(const std::string& path)
   if (!fs::is_directory(folder, error))
     throw std::runtime_error("cannot write '" + path + "': there is no folder '" +
                              folder.string() + "'; create it or name another");
+  // A rename would go through, but a file that was made read-only is to stay.
+  if (fs::exists(target, error) && ::access(target.c_str(), W_OK) != 0)
+    failToCreate(path, errno);
   return target;
 }
 
-/// A device, pipe or socket: there is nothing to replace.
+/// A device, pipe, socket or open stream: there is nothing to replace.
 bool isSpecial(const fs::path& target)
 {
   std::error_code error;
-  return fs::exists(target, error) && !fs::is_regular_file(target, error);
+  return fs::exists(target, error) &&
+         (!fs::is_regular_file(target, error) || fs::is_symlink(target, error));
 }
 
-fs::path temporaryBeside(const fs::path& target)
+/// Pours a file into a device or pipe, which itself must stay what and where it is.
+void pour(const fs::path& from, const fs::path& to, const std::string& wanted)
 {
-  fs::path name = target.stem();
-  name += ".partial-" + std::to_string(::getpid());
-  name += target.extension();
-  return target.parent_path() / name;
+  std::ofstream stream(to, std::ios::binary);
+  stream << std::ifstream(from, std::ios::binary).rdbuf();
+  if (!stream.flush())
+    throw std::runtime_error("cannot write '" + wanted +
+                             "': it does not take the bytes; name another file");
 }
 
-/// Removes a file when it goes out of scope, unless told to keep it.
+/// An empty file that no one else has, gone at the end unless it was renamed: beside
+/// the target, or for a device or pipe in the folder for such files.
 class TemporaryFile {
 public:
-  explicit TemporaryFile(fs::path path)
-  : path_(std::move(path))
-  {}
+  TemporaryFile(const fs::path& target, const std::string& wanted)
+  {
+    const fs::path folder =
+        isSpecial(target) ? fs::temp_directory_path() : target.parent_path();
+    const std::string start =
+        target.stem().string() + ".partial-" + std::to_string(::getpid()) + '-';
+    for (int number = 0; number < 1000; ++number) {
+      path_ = folder / (start + std::to_string(number) + target.extension().string());
+      const int file =
+          ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (file >= 0) {
+        ::close(file);
+        return;
+      }
+      if (errno != EEXIST)
+        failToCreate(wanted, errno);
+    }
+    failToCreate(wanted, EEXIST);
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile()
@@ -73,17 +104,6 @@ private:
   fs::path path_;
 };
 
-/// Creates the file, empty, or says why that is impossible.
-void create(const fs::path& file, const std::string& wanted)
-{
-  errno = 0;
-  const std::ofstream stream(file, std::ios::binary);
-  if (!stream)
-    throw std::runtime_error("cannot write '" + wanted +
-                             "': " + std::strerror(errno != 0 ? errno : EIO) +
-                             "; check the folder's permissions or name another file");
-}
-
 } // namespace
 
 void writeAtomically(const std::string& path,
@@ -91,15 +111,14 @@ void writeAtomically(const std::string& path,
 {
   const fs::path target = resolveTarget(path);
   try {
-    if (isSpecial(target)) {
-      write(target.string());
-      return;
-    }
-    const TemporaryFile temporary(temporaryBeside(target));
-    create(temporary.path(), path);
+    const TemporaryFile temporary(target, path);
     std::error_code none_before;
     const fs::file_status before = fs::status(target, none_before);
     write(temporary.path().string());
+    if (isSpecial(target)) {
+      pour(temporary.path(), target, path);
+      return;
+    }
     if (fs::is_regular_file(before))
       fs::permissions(temporary.path(), before.permissions(), none_before);
     fs::rename(temporary.path(), target);
@@ -113,10 +132,8 @@ void writeAtomically(const std::string& path,
 void checkWritable(const std::string& path)
 {
   const fs::path target = resolveTarget(path);
-  if (isSpecial(target))
-    return;
-  const TemporaryFile temporary(temporaryBeside(target));
-  create(temporary.path(), path);
+  if (!isSpecial(target))
+    const TemporaryFile temporary(target, path);
 }
 
 } // namespace pcl_mrf_planes::apps

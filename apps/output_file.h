@@ -10,8 +10,8 @@ namespace pcl_mrf_planes::apps {
  *
  * \a write gets the name of a temporary file beside the target, with the target's
  * extension. On success that file takes the target's place; on failure it is removed
- * and the target stays as it was. A link is followed; a device or pipe, which nothing
- * can take the place of, is written to directly.
+ * and the target stays as it was. A link is followed; into a device or pipe the
+ * finished file is copied.
  *
  * \param[in] path the file to write
  * \param[in] write writes the file that it is given the name of, throws if it cannot

@@ -44,9 +44,9 @@ struct PlaneSegmentation {
   SegmentationReport report;
 };
 
-/** \brief Segment organized points into planes: section IV of the paper in one
- * function. \param[in] points the cloud in the sensor frame \param[in] parameters must
- * pass Parameters::validate()
+/** \brief Segment organized points into planes: section IV of the paper in one function.
+ * \param[in] points the cloud in the sensor frame
+ * \param[in] parameters must pass Parameters::validate()
  */
 PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
                                 const Parameters& parameters);
