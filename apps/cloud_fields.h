@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cloud_file.h"
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_mrf_planes::apps {
+
+/** \brief Red, green and blue, 0 to 255 each. */
+using Colour = std::array<std::uint8_t, 3>;
+
+/** \brief The fields x, y and z (float or double) as a cloud with the sensor pose.
+ * \throws std::runtime_error when a field is missing, has another type, or no point has
+ *         three finite coordinates
+ */
+pcl::PointCloud<pcl::PointXYZ>::Ptr coordinates(const CloudFile& file);
+
+/** \brief Colour of every point from a field rgb or rgba; empty if there is none. */
+std::vector<Colour> colours(const CloudFile& file);
+
+/** \brief The same cloud with a last field label (uint32); a field of that name is
+ * dropped, and so is padding.
+ * \param[in] labels a label for each point
+ */
+CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& labels);
+
+} // namespace pcl_mrf_planes::apps

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "options.h"
+
+#include <boost/program_options.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace pcl_mrf_planes::apps {
+
+namespace po = boost::program_options;
+
+namespace {
+
+constexpr int MOST_REPEATS = 1000000;
+
+/// A text option, whose value is checked by us: Boost's messages name no range.
+po::typed_value<std::string>* text(const std::string& argument)
+{
+  return po::value<std::string>()->value_name(argument);
+}
+
+po::options_description fileOptions()
+{
+  po::options_description files("Files");
+  files.add_options()                                                                //
+      ("models", text("FILE.json"), "write planes, counts, parameters and times")    //
+      ("label-image", text("FILE.png"), "write the labels as a 16-bit gray picture") //
+      ("overlay", text("FILE.png"),
+       "write a picture of three panels: colour, depth (invalid points black), "
+       "labels") //
+      ("format", text("ascii|binary|binary_compressed"),
+       "encoding of OUT.pcd (default: that of IN.pcd)") //
+      ("config", text("FILE"),
+       "take options from a file with lines name=value; the command line wins");
+  return files;
+}
+
+po::options_description runOptions()
+{
+  po::options_description run("Run");
+  run.add_options() //
+      ("profile", text(join(profileNames(), "|")),
+       "values that the parameters below start from (default: paper)")            //
+      ("repeat", text("COUNT"), "segment so many times, for timing (default: 1)") //
+      ("timing", po::bool_switch(),
+       "print and record the median time of each stage, with least and most") //
+      ("quiet", po::bool_switch(), "print nothing but errors")                //
+      ("help", po::bool_switch(), "print this help (also -h)")                //
+      ("version", po::bool_switch(), "print the version");
+  return run;
+}
+
+po::options_description parameterDescription()
+{
+  po::options_description parameters("Parameters (default: profile paper)");
+  const Parameters defaults = Parameters::fromProfile(Profile::PAPER);
+  for (const ParameterOption& option : parameterOptions()) {
+    const std::string help =
+        option.help +
+        " (default: " + (option.argument.empty() ? "off" : option.print(defaults)) +
+        ")";
+    if (option.argument.empty())
+      parameters.add_options()(option.name.c_str(), po::bool_switch(), help.c_str());
+    else
+      parameters.add_options()(option.name.c_str(), text(option.argument),
+                               help.c_str());
+  }
+  return parameters;
+}
+
+po::options_description allVisible()
+{
+  po::options_description all;
+  all.add(fileOptions()).add(runOptions()).add(parameterDescription());
+  return all;
+}
+
+/// -h, and a word with a dash in front that is neither an option nor a number.
+std::pair<std::string, std::string> parseShort(const std::string& word)
+{
+  if (word == "-h")
+    return {"help", ""};
+  const bool is_number =
+      word.size() > 1 && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
+  if (word.size() > 1 && word[0] == '-' && word[1] != '-' && !is_number)
+    throw UsageError("unknown option '" + word + "'; see --help");
+  return {};
+}
+
+void parseCommandLine(int argc, const char* const argv[], po::variables_map& values)
+{
+  po::options_description all = allVisible();
+  all.add_options()("files", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("files", -1);
+  // No short options: -1 is a number. No guessing: a script must mean what it says.
+  using namespace po::command_line_style;
+  po::store(po::command_line_parser(argc, argv)
+                .options(all)
+                .positional(positional)
+                .style(allow_long | long_allow_adjacent | long_allow_next)
+                .extra_parser(parseShort)
+                .run(),
+            values);
+}
+
+void parseConfiguration(const std::string& path, po::variables_map& values)
+{
+  std::error_code error;
+  std::ifstream stream(path);
+  if (!stream || std::filesystem::is_directory(path, error))
+    throw UsageError("cannot read the configuration file '" + path +
+                     "'; check its name");
+  try {
+    po::store(po::parse_config_file(stream, allVisible()), values);
+  }
+  catch (const po::error& problem) {
+    throw UsageError("configuration file '" + path + "': " + problem.what() +
+                     "; lines are name=value, see --help");
+  }
+}
+
+std::string given(const po::variables_map& values, const char* name)
+{
+  if (values.count(name) == 0)
+    return {};
+  const std::string& value = values[name].as<std::string>();
+  if (value.empty())
+    throw UsageError(std::string("--") + name + " is empty; give a value");
+  return value;
+}
+
+PcdFormat parseFormat(const std::string& name)
+{
+  for (const PcdFormat format :
+       {PcdFormat::ASCII, PcdFormat::BINARY, PcdFormat::BINARY_COMPRESSED})
+    if (name == formatName(format))
+      return format;
+  throw UsageError("--format is '" + name +
+                   "'; choose one of ascii, binary, binary_compressed");
+}
+
+void readParameters(const po::variables_map& values, Options& options)
+{
+  options.parameters = Parameters::fromProfile(profileFromName(options.profile));
+  for (const ParameterOption& option : parameterOptions()) {
+    if (option.argument.empty()) {
+      if (!values[option.name].defaulted())
+        option.parse(options.parameters,
+                     values[option.name].as<bool>() ? "true" : "false");
+    }
+    else if (values.count(option.name) != 0)
+      option.parse(options.parameters, given(values, option.name.c_str()));
+  }
+  checkParameters(options.parameters);
+}
+
+bool sameFile(const std::string& a, const std::string& b)
+{
+  std::error_code error;
+  return !a.empty() && !b.empty() &&
+         std::filesystem::weakly_canonical(a, error) ==
+             std::filesystem::weakly_canonical(b, error);
+}
+
+/// Files that would overwrite each other; only OUT.pcd may be the input.
+void checkFileNames(const Options& options)
+{
+  const std::vector<std::pair<std::string, std::string>> outputs = {
+      {"OUT.pcd", options.output},
+      {"--models", options.models},
+      {"--label-image", options.label_image},
+      {"--overlay", options.overlay}};
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (i > 0 && sameFile(outputs[i].second, options.input))
+      throw UsageError(outputs[i].first + " would overwrite the input '" +
+                       options.input + "'; name another file");
+    for (std::size_t j = 0; j < i; ++j)
+      if (sameFile(outputs[i].second, outputs[j].second))
+        throw UsageError(outputs[j].first + " and " + outputs[i].first +
+                         " name the same file '" + outputs[i].second + "'; name two");
+  }
+}
+
+void readFileNames(const po::variables_map& values, Options& options)
+{
+  std::vector<std::string> files;
+  if (values.count("files") != 0)
+    files = values["files"].as<std::vector<std::string>>();
+  if (files.empty())
+    throw UsageError("no input file; usage: IN.pcd OUT.pcd [options], see --help");
+  if (files.size() > 2)
+    throw UsageError("too many files, from '" + files[2] +
+                     "' on; usage: IN.pcd OUT.pcd [options], see --help");
+  options.input = files[0];
+  if (files.size() == 2)
+    options.output = files[1];
+  options.models = given(values, "models");
+  options.label_image = given(values, "label-image");
+  options.overlay = given(values, "overlay");
+  if (options.output.empty() && options.models.empty() && options.label_image.empty() &&
+      options.overlay.empty() && !options.timing)
+    throw UsageError("nothing to write; name OUT.pcd, or give --models, --label-image, "
+                     "--overlay or --timing");
+  checkFileNames(options);
+}
+
+} // namespace
+
+Options parseOptions(int argc, const char* const argv[])
+{
+  Options options;
+  po::variables_map values;
+  try {
+    parseCommandLine(argc, argv, values);
+    options.help = values["help"].as<bool>();
+    options.version = values["version"].as<bool>();
+    if (options.help || options.version)
+      return options;
+    const std::string configuration = given(values, "config");
+    if (!configuration.empty())
+      parseConfiguration(configuration, values);
+    options.timing = values["timing"].as<bool>();
+    options.quiet = values["quiet"].as<bool>();
+    if (values.count("format") != 0)
+      options.format = parseFormat(given(values, "format"));
+    if (values.count("profile") != 0)
+      options.profile = given(values, "profile");
+    if (values.count("repeat") != 0)
+      options.repeat = parseInteger("repeat", given(values, "repeat"), 1, MOST_REPEATS);
+    readParameters(values, options);
+    readFileNames(values, options);
+  }
+  catch (const po::error& problem) {
+    throw UsageError(std::string(problem.what()) + "; see --help");
+  }
+  return options;
+}
+
+std::string helpText()
+{
+  std::ostringstream text;
+  text << "Usage: pcl_mrf_plane_segmentation IN.pcd [OUT.pcd] [options]\n\n"
+          "Segments an organized point cloud into planes. OUT.pcd is the same cloud\n"
+          "with a field label: 0 no plane, k the k-th largest plane. Coordinates are\n"
+          "in metres. It may be the input file, and may be left out when another\n"
+          "output is asked for.\n\n"
+       << allVisible()
+       << "\nExit status: 0 success, 1 a file cannot be read, segmented or written,\n"
+          "2 wrong options.\n";
+  return text.str();
+}
+
+} // namespace pcl_mrf_planes::apps

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "parameter_options.h"
+#include "pcd_header.h"
+
+#include <pcl_mrf_planes/parameters.h>
+
+#include <optional>
+#include <string>
+
+namespace pcl_mrf_planes::apps {
+
+/** \brief What the command line of pcl_mrf_plane_segmentation asks for. */
+struct Options {
+  bool help = false;
+  bool version = false;
+  std::string input;
+  std::string output; ///< empty: none wanted, as for the other files
+  std::optional<PcdFormat> format;
+  std::string models;
+  std::string label_image;
+  std::string overlay;
+  int repeat = 1;
+  bool timing = false;
+  bool quiet = false;
+  std::string profile = "paper";
+  Parameters parameters;
+};
+
+/** \brief Read the command line and the configuration file it names.
+ * \throws UsageError with what is wrong and what to do
+ */
+Options parseOptions(int argc, const char* const argv[]);
+
+/** \brief The text of --help. */
+std::string helpText();
+
+} // namespace pcl_mrf_planes::apps

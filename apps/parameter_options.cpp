@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parameter_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <utility>
+
+namespace pcl_mrf_planes::apps {
+
+namespace {
+
+template <typename T>
+bool parseNumber(const std::string& text, T& value)
+{
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  return stream >> std::noskipws >> value && stream.peek() == EOF;
+}
+
+double parseReal(const std::string& option, const std::string& text)
+{
+  double value = 0.0;
+  if (!parseNumber(text, value) || !std::isfinite(value))
+    throw UsageError("--" + option + " is '" + text +
+                     "'; give a number such as 0.5 or 1e-3");
+  return value;
+}
+
+/// The shortest text that is the same number when read back.
+std::string printReal(double value)
+{
+  for (int digits = 6;; ++digits) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream.precision(digits);
+    stream << value;
+    double back = 0.0;
+    if (digits >= std::numeric_limits<double>::max_digits10 ||
+        (parseNumber(stream.str(), back) && back == value))
+      return stream.str();
+  }
+}
+
+template <typename Enum>
+using Names = std::vector<std::pair<std::string, Enum>>;
+
+template <typename Enum>
+std::vector<std::string> words(const Names<Enum>& names)
+{
+  std::vector<std::string> result;
+  for (const auto& name : names)
+    result.push_back(name.first);
+  return result;
+}
+
+template <typename Enum>
+Enum parseName(const std::string& option, const std::string& text,
+               const Names<Enum>& names)
+{
+  for (const auto& name : names)
+    if (name.first == text)
+      return name.second;
+  throw UsageError("--" + option + " is '" + text + "'; choose one of " +
+                   join(words(names)));
+}
+
+const Names<Profile> PROFILES = {{"paper", Profile::PAPER}};
+const Names<PlaneFit> FITS = {{"algebraic", PlaneFit::ALGEBRAIC},
+                              {"geometric", PlaneFit::GEOMETRIC}};
+const Names<DepthMeasure> DEPTHS = {{"auto", DepthMeasure::AUTO},
+                                    {"z", DepthMeasure::OPTICAL_AXIS},
+                                    {"range", DepthMeasure::RANGE}};
+const Names<Smoothness> SMOOTHNESSES = {
+    {"potts", Smoothness::POTTS},
+    {"dissimilarity", Smoothness::DISSIMILARITY},
+    {"hybrid", Smoothness::HYBRID},
+    {"predicted-depth", Smoothness::PREDICTED_DEPTH}};
+const Names<bool> SWITCH = {{"true", true}, {"false", false}};
+
+NoiseModel parseNoise(const std::string& option, const std::string& text)
+{
+  NoiseModel model;
+  if (NoiseModel::fromName(text, model))
+    return model;
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  double value = 0.0;
+  for (std::string part; std::getline(parts, part, ',');)
+    if (parseNumber(part, value) && std::isfinite(value))
+      numbers.push_back(value);
+    else
+      break;
+  const auto commas =
+      static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
+  if (numbers.size() == 1 && commas == 0)
+    return NoiseModel::fixed(numbers[0]);
+  if (numbers.size() == 3 && commas == 2)
+    return {numbers[0], numbers[1], numbers[2]};
+  throw UsageError("--" + option + " is '" + text + "'; choose one of " +
+                   join(NoiseModel::names()) +
+                   ", or give metres (0.01) or coefficients a,b,c (0.001,0,0.0014)");
+}
+
+std::string printNoise(const NoiseModel& noise)
+{
+  for (const std::string& name : NoiseModel::names()) {
+    NoiseModel preset;
+    if (NoiseModel::fromName(name, preset) && preset.a == noise.a &&
+        preset.b == noise.b && preset.c == noise.c)
+      return name;
+  }
+  if (noise.b == 0.0 && noise.c == 0.0)
+    return printReal(noise.a);
+  return printReal(noise.a) + ',' + printReal(noise.b) + ',' + printReal(noise.c);
+}
+
+ParameterOption real(const char* name, double Parameters::*value, const char* argument,
+                     const char* help)
+{
+  return {
+      name, argument, help,
+      [=](Parameters& p, const std::string& text) { p.*value = parseReal(name, text); },
+      [=](const Parameters& p) { return printReal(p.*value); }};
+}
+
+ParameterOption integer(const char* name, int Parameters::*value, const char* argument,
+                        const char* help)
+{
+  return {name, argument, help,
+          [=](Parameters& p, const std::string& text) {
+            p.*value = parseInteger(name, text, std::numeric_limits<int>::min(),
+                                    std::numeric_limits<int>::max());
+          },
+          [=](const Parameters& p) { return std::to_string(p.*value); }};
+}
+
+template <typename Enum>
+ParameterOption choice(const char* name, Enum Parameters::*value,
+                       const Names<Enum>& names, const char* help)
+{
+  const bool is_switch = std::is_same_v<Enum, bool>;
+  return {name, is_switch ? "" : join(words(names), "|"), help,
+          [=](Parameters& p, const std::string& text) {
+            p.*value = parseName(name, text, names);
+          },
+          [=](const Parameters& p) {
+            for (const auto& entry : names)
+              if (entry.second == p.*value)
+                return entry.first;
+            return std::string();
+          }};
+}
+
+} // namespace
+
+const std::vector<ParameterOption>& parameterOptions()
+{
+  using P = Parameters;
+  static const std::vector<ParameterOption> all = {
+      integer("tile-width", &P::tile_width, "POINTS", "width of a tile"),
+      integer("tile-height", &P::tile_height, "POINTS", "height of a tile"),
+      choice("fit", &P::fit, FITS, "least-squares fit of a tile's plane"),
+      {"noise", "NAME|METRES|A,B,C",
+       "sensor noise sigma(z) that a tile's error is held against: " +
+           join(NoiseModel::names()) +
+           "; or the same number of metres at every depth; or the coefficients of "
+           "a + b z + c z^2",
+       [](P& p, const std::string& text) { p.noise = parseNoise("noise", text); },
+       [](const P& p) { return printNoise(p.noise); }},
+      real("noise-multiplier", &P::noise_multiplier, "FACTOR",
+           "how many sigma a tile's rms distance may reach; larger keeps more tiles"),
+      real("min-valid-share", &P::min_valid_share, "SHARE",
+           "share of a tile's points that must be valid, 0 to 1"),
+      choice("depth", &P::depth_measure, DEPTHS,
+             "what depth is: z of the sensor (cameras), range (rotating lidars)"),
+      real("beta", &P::beta, "1/M",
+           "weight of the offsets' difference in a plane dissimilarity, per metre"),
+      real("merge-threshold", &P::merge_threshold, "NUMBER",
+           "dissimilarity below which planes are merged; larger merges more"),
+      integer("max-planes", &P::max_planes, "COUNT", "label planes kept at most"),
+      real("lambda", &P::lambda, "1/M", "weight of the data term, per metre"),
+      real("tau", &P::tau, "METRES", "distance at which the data term is cut off"),
+      choice("smoothness", &P::smoothness, SMOOTHNESSES,
+             "price of two labels side by side"),
+      real("gamma", &P::gamma, "NUMBER", "price of a label change for potts"),
+      integer("iterations", &P::iterations, "COUNT",
+              "iterations of belief propagation"),
+      real("convergence-tolerance", &P::convergence_tolerance, "ENERGY",
+           "stop early once no message changes by more; negative: never"),
+      choice("energy", &P::compute_energy, SWITCH,
+             "record the energy of every iteration (slower)"),
+      integer("min-inliers", &P::min_inliers, "POINTS",
+              "planes with fewer points are dropped"),
+      {"threads", "COUNT", "threads to use, 0 for all cores",
+       [](P& p, const std::string& text) {
+         p.number_of_threads =
+             static_cast<unsigned int>(parseInteger("threads", text, 0, 1024));
+       },
+       [](const P& p) { return std::to_string(p.number_of_threads); }}};
+  return all;
+}
+
+std::vector<std::string> profileNames()
+{
+  return words(PROFILES);
+}
+
+Profile profileFromName(const std::string& name)
+{
+  return parseName("profile", name, PROFILES);
+}
+
+void checkParameters(const Parameters& parameters)
+{
+  std::string complaint = parameters.validate();
+  if (complaint.empty())
+    return;
+  // "tile_width is 1; choose ..." becomes "--tile-width is 1; choose ...".
+  const std::size_t end = std::min(complaint.find(' '), complaint.size());
+  std::replace(complaint.begin(), complaint.begin() + static_cast<std::ptrdiff_t>(end),
+               '_', '-');
+  throw UsageError("--" + complaint);
+}
+
+int parseInteger(const std::string& option, const std::string& text, int low, int high)
+{
+  int value = 0;
+  const bool any = low == std::numeric_limits<int>::min();
+  if (!parseNumber(text, value) || value < low || value > high)
+    throw UsageError(
+        "--" + option + " is '" + text + "'; give a whole number" +
+        (any ? std::string()
+             : " from " + std::to_string(low) + " to " + std::to_string(high)));
+  return value;
+}
+
+std::string join(const std::vector<std::string>& words, const char* between)
+{
+  std::string result;
+  for (const std::string& word : words)
+    result += (result.empty() ? "" : between) + word;
+  return result;
+}
+
+} // namespace pcl_mrf_planes::apps

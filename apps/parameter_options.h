@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_mrf_planes/parameters.h>
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pcl_mrf_planes::apps {
+
+/** \brief The call was wrong: exit status 2. */
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief One value of Parameters as an option: text in, text out. */
+struct ParameterOption {
+  std::string name;     ///< without the dashes
+  std::string argument; ///< what to give, for the help; empty: a switch
+  std::string help;     ///< effect and unit
+  std::function<void(Parameters&, const std::string&)> parse; ///< throws UsageError
+  /// What parse() takes to get the same value.
+  std::function<std::string(const Parameters&)> print;
+};
+
+/** \brief All of them, in the order of Parameters. */
+const std::vector<ParameterOption>& parameterOptions();
+
+/** \brief Names of the profiles, and the profile of a name.
+ * \throws UsageError for an unknown name */
+std::vector<std::string> profileNames();
+Profile profileFromName(const std::string& name);
+
+/** \brief Parameters::validate(), in the words of the options.
+ * \throws UsageError */
+void checkParameters(const Parameters& parameters);
+
+/** \brief A whole number from an option. \throws UsageError */
+int parseInteger(const std::string& option, const std::string& text, int low, int high);
+
+/** \brief Comma and blank between words. */
+std::string join(const std::vector<std::string>& words, const char* between = ", ");
+
+} // namespace pcl_mrf_planes::apps

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report_json.h"
+
+#include "output_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+namespace pcl_mrf_planes::apps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Keys are names of options, values what the options take: numbers stay numbers.
+Json parametersJson(const Options& options)
+{
+  Json result;
+  result["profile"] = options.profile;
+  for (const ParameterOption& option : parameterOptions()) {
+    std::string key = option.name;
+    std::replace(key.begin(), key.end(), '-', '_');
+    const std::string value = option.print(options.parameters);
+    const Json parsed = Json::parse(value, nullptr, false);
+    result[key] = parsed.is_discarded() ? Json(value) : parsed;
+  }
+  return result;
+}
+
+Json countsJson(const SegmentedCloud& result)
+{
+  const SegmentationReport& report = result.report;
+  return {{"width", result.labels.width},
+          {"height", result.labels.height},
+          {"points", report.points},
+          {"valid_points", report.valid_points},
+          {"tiles_tried", report.tiles_tried},
+          {"tiles_kept", report.tiles_kept},
+          {"planes_after_merging", report.planes_after_merging},
+          {"planes", report.planes},
+          {"iterations", report.iterations},
+          {"labelled_share", report.labelled_share}};
+}
+
+Json planesJson(const SegmentedCloud& result)
+{
+  Json planes = Json::array();
+  for (const PlaneSummary& plane : result.planes) {
+    const auto& abcd = plane.coefficients;
+    const auto& centroid = plane.centroid;
+    planes.push_back({{"label", planes.size() + 1},
+                      {"coefficients", {abcd[0], abcd[1], abcd[2], abcd[3]}},
+                      {"points", plane.points},
+                      {"area_m2", plane.area},
+                      {"rms_m", plane.rms},
+                      {"centroid", {centroid[0], centroid[1], centroid[2]}}});
+  }
+  return planes;
+}
+
+Json energyJson(const SegmentationReport& report)
+{
+  Json steps = Json::array();
+  for (const FieldEnergy& energy : report.energy)
+    steps.push_back({{"data", energy.data},
+                     {"smoothness", energy.smoothness},
+                     {"total", energy.total()}});
+  return steps;
+}
+
+Json timingJson(const Timing& timing)
+{
+  const auto limits = [](const Spread& spread) {
+    return Json{{"min", spread.least}, {"max", spread.most}};
+  };
+  Json result;
+  result["runs"] = timing.runs();
+  result["total_ms"] = timing.total().median;
+  Json spread;
+  spread["total_ms"] = limits(timing.total());
+  for (const auto& stage : timing.stages()) {
+    result["stages"][stage.first] = stage.second.median;
+    spread["stages"][stage.first] = limits(stage.second);
+  }
+  result["spread"] = spread;
+  return result;
+}
+
+} // namespace
+
+void writeReport(const std::string& path, const SegmentedCloud& result,
+                 const Options& options)
+{
+  Json report;
+  report["program"] = "pcl_mrf_plane_segmentation";
+  report["version"] = PCL_MRF_PLANES_VERSION;
+  report["input"] = options.input;
+  report["counts"] = countsJson(result);
+  report["planes"] = planesJson(result);
+  if (!result.report.energy.empty())
+    report["energy"] = energyJson(result.report);
+  report["parameters"] = parametersJson(options);
+  if (options.timing)
+    report["timing"] = timingJson(result.timing);
+  const std::string text =
+      report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  writeAtomically(path, [&](const std::string& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    if (!stream.flush())
+      throw std::runtime_error("cannot write '" + path +
+                               "'; check the space on the disk");
+  });
+}
+
+} // namespace pcl_mrf_planes::apps
