@@ -12,6 +12,9 @@ namespace {
 /// The part of the image that a tile covers; ragged at the right and at the bottom.
 struct TileBounds {
   int left, top, right, bottom; // right and bottom are one past the end
+  /// The rays of one row or column of pixels lie on a plane through the sensor, which
+  /// would fit without error and say nothing of the surface.
+  bool isLine() const { return right - left == 1 || bottom - top == 1; }
   double area() const { return static_cast<double>(right - left) * (bottom - top); }
 };
 
@@ -62,7 +65,7 @@ TilePlane fitTile(const OrganizedPoints& points, const TileBounds& bounds,
     return tile;
   tile.depth = points.depthOf(tile.sums.centroid());
   tile.fit = fitPlane(tile.sums, parameters.fit);
-  if (!tile.fit.valid) {
+  if (!tile.fit.valid || bounds.isLine()) {
     tile.state = TileState::DEGENERATE;
     return tile;
   }

@@ -10,9 +10,10 @@ namespace pcl_mrf_planes {
 
 /** \brief The ten sums of the scatter matrix M^t M, equation (4).
  *
- * Sums of double precision about the sensor, which every point is near: the
- * cancellation in the covariance stays below a micrometre for ranges up to a kilometre.
- * Sums of disjoint sets of points add up to the sums of their union.
+ * Sums of double precision about the sensor, which every point is near. What cancellation
+ * leaves in the rms distance of an exact plane grows with the range: 0.1 micrometres at
+ * 1 m, 10 at 100 m, less than 0.1 mm at a kilometre. Sums of disjoint sets of points add
+ * up to the sums of their union.
  */
 struct ScatterMatrix {
   double n = 0.0;

@@ -14,7 +14,7 @@ namespace pcl_mrf_planes {
 enum class TileState {
   KEPT,       ///< a plane with low fit-error: it goes on to the merging
   TOO_FEW,    ///< fewer valid points than min_valid_share asks for
-  DEGENERATE, ///< points on a line or in one spot
+  DEGENERATE, ///< points on a line or in one spot, or of one row or column of pixels
   BAD_FIT     ///< root mean square distance above the noise
 };
 

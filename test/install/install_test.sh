@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Installs the library into a fresh folder, builds the example project against that copy
+# only, and runs it. Arguments: CMake, source folder, build folder, a cloud to segment.
+set -euo pipefail
+cmake=$1 source=$2 build=$3 cloud=$4
+
+work=$build/test/install/work
+rm -rf "$work"
+mkdir -p "$work"
+"$cmake" --install "$build" --prefix "$work/prefix" >/dev/null
+
+"$cmake" -S "$source/doc/example" -B "$work/example" -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
+"$cmake" --build "$work/example"
+printed=$("$work/example/example" "$cloud")
+printf '%s\n' "$printed"
+grep -q 'points on' <<<"$printed" || { echo "the example found no plane" >&2; exit 1; }
+
+# pkg-config gives flags that compile and link the same file.
+libdir=$(dirname "$(find "$work/prefix" -name 'pcl_mrf_planes.pc')")
+export PKG_CONFIG_PATH=$libdir
+flags=$(pkg-config --cflags --libs pcl_mrf_planes)
+io=$(pkg-config --cflags --libs pcl_io)
+# shellcheck disable=SC2086
+c++ -std=c++17 "$source/doc/example/main.cpp" -o "$work/by_pkg_config" $flags $io \
+  -Wl,-rpath,"${libdir%/pkgconfig}"
+"$work/by_pkg_config" "$cloud" | grep -q 'points on'
+
+# The installed apps find their library without help.
+"$work/prefix/bin/pcl_mrf_plane_segmentation" --version
+# Nothing of this machine's processor is in the flags that users get.
+if grep -rn -e '-march' -e '-mtune' -e '-mavx' "$work/prefix/lib"/*/cmake \
+  "$work/prefix/lib"/*/pkgconfig; then
+  echo "machine-specific flags are installed" >&2
+  exit 1
+fi

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The kernels run on whatever instruction set the machine has; all must give the same.
+#include "reference/inputs.h"
+
+#include "field_kernel.h"
+
+#include <pcl_mrf_planes/belief_propagation.h>
+#include <pcl_mrf_planes/row_propagation.h>
+
+#include <gtest/gtest.h>
+
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <limits>
+
+namespace pcl_mrf_planes {
+namespace {
+
+/// Calls work() once for each instruction set that this machine and the library have.
+template <typename Work>
+int forEachInstructionSet(const Work& work)
+{
+  int tried = 0;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    work(hwy::TargetName(target));
+    ++tried;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  return tried;
+}
+
+TEST(InstructionSetTest, PropagationGivesTheSameLabels)
+{
+  for (const EdgeModel model : {EdgeModel::SOFT_THRESHOLD, EdgeModel::SCALED_MAXIMUM}) {
+    scenes::Random random(3);
+    const GridField field = reference::randomField(random, 133, 37, 7, model);
+    BeliefPropagation best(field);
+    best.iterate(6);
+    const auto expected = best.mapLabels();
+    const int tried = forEachInstructionSet([&](const char* name) {
+      BeliefPropagation propagation(field);
+      propagation.iterate(6);
+      EXPECT_EQ(propagation.mapLabels(), expected) << "other labels on " << name;
+      EXPECT_EQ(propagateRows(field, 6), expected) << "other labels on " << name;
+    });
+    EXPECT_GE(tried, 1);
+    RecordProperty("instruction_sets", tried);
+  }
+}
+
+/// Costs of a row, at an odd address and with something behind that must survive.
+std::vector<std::uint16_t> dataTerms(const DataTerm& term, const OrganizedPoints& p,
+                                     std::size_t start, std::size_t count)
+{
+  std::vector<std::uint16_t> costs(count + 8, 4711);
+  dataTermRow(term, &p.x[start], &p.y[start], &p.z[start], &p.valid[start], count,
+              costs.data());
+  return costs;
+}
+
+std::vector<std::uint16_t> edgeWeights(float scale, const OrganizedPoints& p,
+                                       std::size_t start, std::size_t count)
+{
+  std::vector<std::uint16_t> weights(count + 8, 4711);
+  edgeWeightRow(&p.z[start], &p.z[start + 1], &p.valid[start], &p.valid[start + 1],
+                scale, count, weights.data());
+  return weights;
+}
+
+TEST(InstructionSetTest, FieldRowsAreTheSameBitsAndStayInTheirRow)
+{
+  scenes::Random random(4);
+  const OrganizedPoints points = reference::randomPoints(random, 400, 1);
+  const DataTerm term = {0.6f, -0.48f, 0.64f, 1.25f, 0.5f, 20000.0f};
+  for (const std::size_t count : {1U, 2U, 7U, 8U, 15U, 16U, 17U, 33U, 64U, 301U}) {
+    const std::size_t start = count % 5;
+    const auto data = dataTerms(term, points, start, count);
+    const auto weights = edgeWeights(30000.0f, points, start, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = start + k;
+      const float r = (term.a * points.x[i] + term.b * points.y[i]) +
+                      (term.c * points.z[i] + term.d);
+      const float cost = std::nearbyint(std::min(std::abs(r), term.tau) * term.scale);
+      EXPECT_EQ(data[k], points.valid[i] != 0 ? static_cast<int>(cost) : 0)
+          << "not the rounded data term (7), point " << k << " of " << count;
+      const float step = std::abs(points.z[i] - points.z[i + 1]) * 30000.0f;
+      const bool edge = points.valid[i] != 0 && points.valid[i + 1] != 0;
+      EXPECT_EQ(weights[k],
+                edge ? static_cast<int>(std::nearbyint(std::min(step, 65534.0f)))
+                     : 65535)
+          << "not the rounded depth step, point " << k << " of " << count;
+    }
+    for (std::size_t k = count; k < count + 8; ++k) {
+      EXPECT_EQ(data[k], 4711) << "wrote beyond " << count << " points";
+      EXPECT_EQ(weights[k], 4711) << "wrote beyond " << count << " points";
+    }
+    forEachInstructionSet([&](const char* name) {
+      EXPECT_EQ(dataTerms(term, points, start, count), data)
+          << "other costs on " << name;
+      EXPECT_EQ(edgeWeights(30000.0f, points, start, count), weights)
+          << "other weights on " << name;
+    });
+  }
+}
+
+} // namespace
+} // namespace pcl_mrf_planes

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_mrf_planes/parameters.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace pcl_mrf_planes {
+namespace {
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double ENDLESS = std::numeric_limits<double>::infinity();
+
+TEST(ParametersTest, PaperHasTheValuesOfSectionV)
+{
+  const Parameters p = Parameters::fromProfile(Profile::PAPER);
+  EXPECT_EQ(p.tile_width, 40);
+  EXPECT_EQ(p.tile_height, 40);
+  EXPECT_EQ(p.beta, 0.4);
+  EXPECT_EQ(p.merge_threshold, 0.15);
+  EXPECT_EQ(p.iterations, 5);
+  EXPECT_EQ(p.lambda, 0.2);
+  EXPECT_EQ(p.tau, 0.5);
+  EXPECT_EQ(p.fit, PlaneFit::ALGEBRAIC) << "equation (4) is the scatter matrix";
+  EXPECT_EQ(p.smoothness, Smoothness::HYBRID) << "the paper's choice is equation (10)";
+  EXPECT_EQ(p.noise_multiplier, 1.0);
+  EXPECT_EQ(p.noise.sigma(2.0), NoiseModel::kinect().sigma(2.0));
+  EXPECT_EQ(p.min_inliers, 0) << "in the paper every plane stays";
+  EXPECT_LT(p.convergence_tolerance, 0.0) << "the paper does all its iterations";
+  EXPECT_EQ(p.validate(), "") << "the paper's own values must be valid";
+}
+
+struct Setting {
+  const char* name;
+  std::function<void(Parameters&, double)> set;
+  double low, high;
+  bool whole; ///< an integer parameter
+};
+
+void PrintTo(const Setting& setting, std::ostream* out)
+{
+  *out << setting.name;
+}
+
+Setting whole(const char* name, int Parameters::*member, double low, double high)
+{
+  return {name, [member](Parameters& p, double v) { p.*member = static_cast<int>(v); },
+          low, high, true};
+}
+
+Setting real(const char* name, double Parameters::*member, double low, double high)
+{
+  return {name, [member](Parameters& p, double v) { p.*member = v; }, low, high, false};
+}
+
+class ParameterRangeTest : public testing::TestWithParam<Setting> {};
+
+TEST_P(ParameterRangeTest, EndsAreTakenAndBeyondIsNamed)
+{
+  const Setting& setting = GetParam();
+  const auto complaint = [&](double value) {
+    Parameters p;
+    setting.set(p, value);
+    return p.validate();
+  };
+  EXPECT_EQ(complaint(setting.low), "") << "the lower end belongs to the range";
+  EXPECT_EQ(complaint(setting.high), "") << "the upper end belongs to the range";
+  for (const double bad : {setting.low - 1.0, setting.high + 1.0}) {
+    const std::string said = complaint(bad);
+    EXPECT_NE(said.find(setting.name), std::string::npos)
+        << "a value of " << bad << " must be refused by name, got '" << said << "'";
+  }
+  if (!setting.whole) {
+    for (const double bad : {NOT_A_NUMBER, ENDLESS, -ENDLESS}) {
+      EXPECT_NE(complaint(bad).find(setting.name), std::string::npos)
+          << bad << " must be refused by name";
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ParameterRangeTest,
+    testing::Values(whole("tile_width", &Parameters::tile_width, 2, 4096),
+                    whole("tile_height", &Parameters::tile_height, 2, 4096),
+                    real("noise_multiplier", &Parameters::noise_multiplier, 1e-6, 1e6),
+                    real("min_valid_share", &Parameters::min_valid_share, 0, 1),
+                    real("beta", &Parameters::beta, 0, 1e6),
+                    real("merge_threshold", &Parameters::merge_threshold, 0, 1e6),
+                    whole("max_planes", &Parameters::max_planes, 1, 4096),
+                    real("lambda", &Parameters::lambda, 0, 1e6),
+                    real("tau", &Parameters::tau, 1e-6, 1e6),
+                    real("gamma", &Parameters::gamma, 0, 1e6),
+                    whole("iterations", &Parameters::iterations, 0, 100000),
+                    real("convergence_tolerance", &Parameters::convergence_tolerance,
+                         -1e6, 1e6),
+                    whole("min_inliers", &Parameters::min_inliers, 0, 1e9)));
+
+TEST(ParametersTest, ThreadsHaveAnUpperEnd)
+{
+  Parameters p;
+  for (const unsigned int good : {0U, 1U, 64U}) {
+    p.number_of_threads = good;
+    EXPECT_EQ(p.validate(), "") << good << " threads must be allowed";
+  }
+  p.number_of_threads = 4000000000U;
+  EXPECT_NE(p.validate().find("number_of_threads"), std::string::npos)
+      << "a negative number cast to unsigned must be caught";
+}
+
+TEST(ParametersTest, NoiseMustBePositiveAndANumber)
+{
+  Parameters p;
+  for (const NoiseModel& bad :
+       {NoiseModel{0, 0, 0}, NoiseModel{-1, 0, 0}, NoiseModel{NOT_A_NUMBER, 0, 0},
+        NoiseModel{0, NOT_A_NUMBER, 0}, NoiseModel{0, 0, NOT_A_NUMBER}}) {
+    p.noise = bad;
+    EXPECT_NE(p.validate().find("noise"), std::string::npos)
+        << "noise " << bad.a << " " << bad.b << " " << bad.c << " must be refused";
+  }
+  p.noise = NoiseModel::none();
+  EXPECT_EQ(p.validate(), "") << "the preset none is a valid choice";
+}
+
+TEST(ParametersTest, TheFirstComplaintIsOneSentenceWithTheRange)
+{
+  Parameters p;
+  p.lambda = -3;
+  const std::string said = p.validate();
+  EXPECT_NE(said.find("-3"), std::string::npos) << "must quote the value: " << said;
+  EXPECT_NE(said.find("0"), std::string::npos) << "must state the range: " << said;
+  EXPECT_EQ(said.find('\n'), std::string::npos) << "one sentence: " << said;
+}
+
+} // namespace
+} // namespace pcl_mrf_planes

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reference/inputs.h"
+#include "reference/plane_fit.h"
+
+#include <pcl_mrf_planes/plane_regions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+namespace pcl_mrf_planes {
+namespace {
+
+/// A rectangle of known size, turned about the vertical, seen by a camera.
+scenes::SceneFrame rectangle(double angle, double width, double height,
+                             const scenes::SensorNoise& noise)
+{
+  scenes::Scene scene;
+  scene.beginObject();
+  const Eigen::Vector3d across(std::cos(angle) * width, std::sin(angle) * width, 0.0);
+  const Eigen::Vector3d up(0.0, 0.0, height);
+  const Eigen::Vector3d corner = Eigen::Vector3d(0, 2.5, 0) - across / 2 - up / 2;
+  scene.addPolygon({corner, corner + across, corner + across + up, corner + up},
+                   scenes::Colour(0.5, 0.5, 0.5));
+  scenes::Camera camera = scenes::lookAt({0, 0, 0}, {0, 1, 0});
+  camera.resize(1280, 960);
+  return scenes::render(scene, camera, noise, 1);
+}
+
+class AreaTest : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(Angles, AreaTest, testing::Values(0.0, 0.3, -0.6, 0.9, 1.1));
+
+TEST_P(AreaTest, OfARectangleSeenObliquelyIsKnown)
+{
+  const auto frame = rectangle(GetParam(), 1.2, 1.0, scenes::SensorNoise::none());
+  const OrganizedPoints points = reference::toPoints(frame);
+  ASSERT_EQ(frame.planes.size(), 1U);
+  const Plane plane = {frame.planes[0].head<3>(), frame.planes[0][3]};
+  const auto regions =
+      gatherRegions(points, {plane}, std::vector<std::uint16_t>(points.size(), 0), 0);
+  ASSERT_EQ(regions.size(), 1U);
+  // Pixels are points: half a pixel is missing along each border.
+  EXPECT_NEAR(regions[0].area, 1.2, 0.01 * 1.2)
+      << "more than 1 % off at " << GetParam() << " rad";
+  EXPECT_EQ(regions[0].indices.size(), points.countValid());
+  EXPECT_LT(regions[0].rms, 1e-5) << "points of the plane have no distance to it";
+}
+
+TEST(PlaneRegionsTest, NoiseHardlyChangesTheArea)
+{
+  const auto clean = rectangle(0.5, 1.2, 1.0, scenes::SensorNoise::none());
+  const auto noisy = rectangle(0.5, 1.2, 1.0, scenes::SensorNoise::gaussian(0.02));
+  const Plane plane = {clean.planes[0].head<3>(), clean.planes[0][3]};
+  const std::vector<std::uint16_t> labels(clean.size(), 0);
+  const double expected =
+      gatherRegions(reference::toPoints(clean), {plane}, labels, 0)[0].area;
+  const double found =
+      gatherRegions(reference::toPoints(noisy), {plane}, labels, 0)[0].area;
+  EXPECT_NEAR(found, expected, 0.03 * expected)
+      << "2 cm of noise between points 2 mm apart must cancel";
+}
+
+TEST(PlaneRegionsTest, StatisticsAreThoseOfThePoints)
+{
+  scenes::Random random(3);
+  const OrganizedPoints points = reference::randomPoints(random, 31, 23);
+  std::vector<Plane> planes;
+  for (int i = 0; i < 4; ++i)
+    planes.push_back(reference::randomPlane(random));
+  std::vector<std::uint16_t> labels;
+  std::map<int, reference::Points> members;
+  std::map<int, std::vector<int>> indices;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    labels.push_back(static_cast<std::uint16_t>(random.integer(0, 2))); // none has 3
+    if (points.valid[i] != 0) {
+      members[labels[i]].emplace_back(points.x[i], points.y[i], points.z[i]);
+      indices[labels[i]].push_back(static_cast<int>(i));
+    }
+  }
+  const auto regions = gatherRegions(points, planes, labels, 0);
+  ASSERT_EQ(regions.size(), 3U) << "a label without points gives no region";
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    const PlaneRegion& region = regions[k];
+    const reference::Points& mine = members[region.label];
+    EXPECT_EQ(region.indices, indices[region.label]) << "ascending points of the label";
+    EXPECT_EQ(region.plane.d, planes[static_cast<std::size_t>(region.label)].d);
+    EXPECT_LT((region.centroid - reference::mean(mine)).norm(), 1e-9);
+    const Eigen::MatrixXd c = reference::centred(mine);
+    EXPECT_LT((region.covariance - c.transpose() * c / static_cast<double>(mine.size()))
+                  .norm(),
+              1e-9)
+        << "covariance about the centroid, divided by n";
+    double sum = 0.0;
+    for (const auto& p : mine)
+      sum += std::pow(region.plane.distance(p), 2);
+    EXPECT_NEAR(region.rms, std::sqrt(sum / static_cast<double>(mine.size())), 1e-9);
+    if (k > 0) {
+      EXPECT_LE(region.area, regions[k - 1].area) << "largest area first";
+    }
+  }
+  const auto image = regionLabels(points, regions);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points.valid[i] == 0) {
+      EXPECT_EQ(image[i], 0) << "a point that was not measured has no label";
+    }
+    else {
+      EXPECT_EQ(regions[image[i] - 1U].label, labels[i]) << "point " << i;
+    }
+  }
+}
+
+TEST(PlaneRegionsTest, SmallRegionsAreDropped)
+{
+  OrganizedPoints points;
+  points.resize(10, 1);
+  for (std::size_t i = 0; i < 10; ++i)
+    points.set(i, static_cast<float>(i), 0, 1);
+  const std::vector<std::uint16_t> labels = {0, 0, 0, 0, 0, 0, 0, 1, 1, 1};
+  scenes::Random random(1);
+  const std::vector<Plane> planes = {reference::randomPlane(random),
+                                     reference::randomPlane(random)};
+  EXPECT_EQ(gatherRegions(points, planes, labels, 3).size(), 2U);
+  const auto large = gatherRegions(points, planes, labels, 4);
+  ASSERT_EQ(large.size(), 1U) << "3 points are fewer than 4";
+  EXPECT_EQ(large[0].label, 0);
+  EXPECT_EQ(large[0].area, 0.0) << "a single row has no area";
+  EXPECT_EQ(regionLabels(points, large),
+            (std::vector<std::uint16_t>{1, 1, 1, 1, 1, 1, 1, 0, 0, 0}));
+  EXPECT_TRUE(gatherRegions(points, planes, labels, 8).empty());
+}
+
+} // namespace
+} // namespace pcl_mrf_planes
