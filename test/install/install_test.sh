@@ -24,7 +24,8 @@ io=$(pkg-config --cflags --libs pcl_io)
 # shellcheck disable=SC2086
 c++ -std=c++17 "$source/doc/example/main.cpp" -o "$work/by_pkg_config" $flags $io \
   -Wl,-rpath,"${libdir%/pkgconfig}"
-"$work/by_pkg_config" "$cloud" | grep -q 'points on'
+printed=$("$work/by_pkg_config" "$cloud")
+grep -q 'points on' <<<"$printed"
 
 # The installed apps find their library without help.
 "$work/prefix/bin/pcl_mrf_plane_segmentation" --version
