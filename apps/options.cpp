@@ -45,7 +45,7 @@ po::options_description runOptions()
   po::options_description run("Run");
   run.add_options() //
       ("profile", text(join(profileNames(), "|")),
-       "values that the parameters below start from (default: paper)")            //
+       "values that the parameters below start from (default: default)")          //
       ("repeat", text("COUNT"), "segment so many times, for timing (default: 1)") //
       ("timing", po::bool_switch(),
        "print and record the median time of each stage, with least and most") //
@@ -55,11 +55,12 @@ po::options_description runOptions()
   return run;
 }
 
-po::options_description parameterDescription()
+po::options_description describe(const char* title,
+                                 const std::vector<ParameterOption>& options)
 {
-  po::options_description parameters("Parameters (default: profile paper)");
-  const Parameters defaults = Parameters::fromProfile(Profile::PAPER);
-  for (const ParameterOption& option : parameterOptions()) {
+  po::options_description parameters(title);
+  const Parameters defaults;
+  for (const ParameterOption& option : options) {
     const std::string help =
         option.help +
         " (default: " + (option.argument.empty() ? "off" : option.print(defaults)) +
@@ -76,7 +77,12 @@ po::options_description parameterDescription()
 po::options_description allVisible()
 {
   po::options_description all;
-  all.add(fileOptions()).add(runOptions()).add(parameterDescription());
+  all.add(fileOptions())
+      .add(runOptions())
+      .add(describe("Parameters", commonParameterOptions()))
+      .add(
+          describe("Parameters of profile default", parameterOptions(Method::ADAPTIVE)))
+      .add(describe("Parameters of profile paper", parameterOptions(Method::PAPER)));
   return all;
 }
 
@@ -145,18 +151,37 @@ PcdFormat parseFormat(const std::string& name)
                    "'; choose one of ascii, binary, binary_compressed");
 }
 
+bool isGiven(const po::variables_map& values, const ParameterOption& option)
+{
+  return values.count(option.name) != 0 && !values[option.name].defaulted();
+}
+
+void readParameters(const std::vector<ParameterOption>& known,
+                    const po::variables_map& values, Parameters& parameters)
+{
+  for (const ParameterOption& option : known) {
+    if (!isGiven(values, option))
+      continue;
+    if (option.argument.empty())
+      option.parse(parameters, values[option.name].as<bool>() ? "true" : "false");
+    else
+      option.parse(parameters, given(values, option.name.c_str()));
+  }
+}
+
 void readParameters(const po::variables_map& values, Options& options)
 {
   options.parameters = Parameters::fromProfile(profileFromName(options.profile));
-  for (const ParameterOption& option : parameterOptions()) {
-    if (option.argument.empty()) {
-      if (!values[option.name].defaulted())
-        option.parse(options.parameters,
-                     values[option.name].as<bool>() ? "true" : "false");
-    }
-    else if (values.count(option.name) != 0)
-      option.parse(options.parameters, given(values, option.name.c_str()));
-  }
+  const bool paper = options.parameters.method == Method::PAPER;
+  readParameters(commonParameterOptions(), values, options.parameters);
+  readParameters(parameterOptions(options.parameters.method), values,
+                 options.parameters);
+  for (const ParameterOption& option :
+       parameterOptions(paper ? Method::ADAPTIVE : Method::PAPER))
+    if (isGiven(values, option))
+      throw UsageError("--" + option.name + " has no effect in profile " +
+                       options.profile + "; add --profile " +
+                       (paper ? "default" : "paper"));
   checkParameters(options.parameters);
 }
 

@@ -24,7 +24,7 @@ struct Options {
   int repeat = 1;
   bool timing = false;
   bool quiet = false;
-  std::string profile = "paper";
+  std::string profile = "default";
   Parameters parameters;
 };
 

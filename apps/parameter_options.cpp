@@ -67,7 +67,8 @@ Enum parseName(const std::string& option, const std::string& text,
                    join(words(names)));
 }
 
-const Names<Profile> PROFILES = {{"paper", Profile::PAPER}};
+const Names<Profile> PROFILES = {{"default", Profile::DEFAULT},
+                                 {"paper", Profile::PAPER}};
 const Names<PlaneFit> FITS = {{"algebraic", PlaneFit::ALGEBRAIC},
                               {"geometric", PlaneFit::GEOMETRIC}};
 const Names<DepthMeasure> DEPTHS = {{"auto", DepthMeasure::AUTO},
@@ -117,38 +118,53 @@ std::string printNoise(const NoiseModel& noise)
   return printReal(noise.a) + ',' + printReal(noise.b) + ',' + printReal(noise.c);
 }
 
-ParameterOption real(const char* name, double Parameters::*value, const char* argument,
-                     const char* help)
+/// The part of the parameters that a member belongs to.
+template <typename Owner, typename All>
+auto& part(All& parameters)
 {
-  return {
-      name, argument, help,
-      [=](Parameters& p, const std::string& text) { p.*value = parseReal(name, text); },
-      [=](const Parameters& p) { return printReal(p.*value); }};
+  if constexpr (std::is_same_v<Owner, AdaptiveParameters>)
+    return parameters.adaptive;
+  else
+    return parameters;
 }
 
-ParameterOption integer(const char* name, int Parameters::*value, const char* argument,
+template <typename Owner>
+ParameterOption real(const char* name, double Owner::*value, const char* argument,
+                     const char* help)
+{
+  return {name, argument, help,
+          [=](Parameters& p, const std::string& text) {
+            part<Owner>(p).*value = parseReal(name, text);
+          },
+          [=](const Parameters& p) { return printReal(part<Owner>(p).*value); }};
+}
+
+template <typename Owner>
+ParameterOption integer(const char* name, int Owner::*value, const char* argument,
                         const char* help)
 {
   return {name, argument, help,
           [=](Parameters& p, const std::string& text) {
-            p.*value = parseInteger(name, text, std::numeric_limits<int>::min(),
-                                    std::numeric_limits<int>::max());
+            part<Owner>(p).*value =
+                parseInteger(name, text, std::numeric_limits<int>::min(),
+                             std::numeric_limits<int>::max());
           },
-          [=](const Parameters& p) { return std::to_string(p.*value); }};
+          [=](const Parameters& p) { return std::to_string(part<Owner>(p).*value); }};
 }
 
-template <typename Enum>
-ParameterOption choice(const char* name, Enum Parameters::*value,
-                       const Names<Enum>& names, const char* help)
+template <typename Owner, typename Enum>
+ParameterOption choice(const char* name, Enum Owner::*value, const Names<Enum>& names,
+                       const char* help)
 {
-  const bool is_switch = std::is_same_v<Enum, bool>;
+  const bool is_switch =
+      std::is_same_v<Enum, bool> && std::is_same_v<Owner, Parameters>;
   return {name, is_switch ? "" : join(words(names), "|"), help,
           [=](Parameters& p, const std::string& text) {
-            p.*value = parseName(name, text, names);
+            part<Owner>(p).*value = parseName(name, text, names);
           },
           [=](const Parameters& p) {
             for (const auto& entry : names)
-              if (entry.second == p.*value)
+              if (entry.second == part<Owner>(p).*value)
                 return entry.first;
             return std::string();
           }};
@@ -156,10 +172,83 @@ ParameterOption choice(const char* name, Enum Parameters::*value,
 
 } // namespace
 
-const std::vector<ParameterOption>& parameterOptions()
+namespace {
+
+/// What Method::ADAPTIVE takes.
+std::vector<ParameterOption> adaptiveOptions()
+{
+  using A = AdaptiveParameters;
+  return {
+      integer("cell", &A::cell, "POINTS", "side of the smallest tile: 2, 4 or 8"),
+      integer("levels", &A::levels, "COUNT", "tile sizes, each twice the one before"),
+      real("tile-tolerance", &A::tile_tolerance, "SIGMAS",
+           "rms distance that a tile may have"),
+      real("min-fill", &A::min_fill, "SHARE", "of valid points that a tile needs"),
+      real("noise-percentile", &A::noise_percentile, "SHARE",
+           "percentile of the tiles' rms distances that is the cloud's noise"),
+      real("growth-percentile", &A::growth_percentile, "SHARE",
+           "percentile of the growth of the rms distance from tile size to tile size"),
+      real("max-growth", &A::max_growth, "FACTOR", "largest such growth"),
+      real("long-range", &A::long_range, "FACTOR",
+           "noise of large planes over the largest tiles', if it is correlated"),
+      real("flatness", &A::flatness, "SHARE",
+           "of its extent that a plane may bend; larger takes in warped surfaces"),
+      real("max-flatness", &A::max_flatness, "METRES", "that a plane may bend at most"),
+      real("min-sigma", &A::min_sigma, "METRES", "least noise at 1 m"),
+      integer("local-reach", &A::local_reach, "TILES", "window of the local noise"),
+      real("local-percentile", &A::local_percentile, "SHARE",
+           "percentile of the tiles' rms distances in that window"),
+      real("max-local", &A::max_local, "FACTOR",
+           "local noise over the cloud's, at most"),
+      real("merge-tolerance", &A::merge_tolerance, "SIGMAS",
+           "deviation of the smaller part when planes merge; larger merges more"),
+      real("region-tolerance", &A::region_tolerance, "SIGMAS",
+           "rms distance that a plane may have"),
+      real("accept-tolerance", &A::accept_tolerance, "SIGMAS",
+           "the same for what is labelled"),
+      integer("min-points", &A::min_points, "POINTS",
+              "smallest plane; more are asked for where noise is correlated"),
+      real("min-width", &A::min_width, "SIGMAS",
+           "least spread of a plane across its shorter side"),
+      choice("join-coplanar", &A::join_coplanar, SWITCH,
+             "whether parts of one plane behind an occluder share a label"),
+      real("join-tolerance", &A::join_tolerance, "SIGMAS",
+           "merge-tolerance of parts that do not touch"),
+      real("join-gap", &A::join_gap, "FACTOR",
+           "widest gap over the side of the smaller part"),
+      real("join-seen", &A::join_seen, "SHARE",
+           "of the way between them that may be off the plane"),
+      choice("join-over-occluders", &A::join_over_occluders, SWITCH,
+             "whether what stands in front leaves parts joined"),
+      integer("fan-parts", &A::fan_parts, "COUNT",
+              "so many small planes in a row are a curved surface; 0: off"),
+      real("fan-angle", &A::fan_angle, "DEGREES", "largest crease in such a row"),
+      real("fan-share", &A::fan_share, "SHARE",
+           "of the points above which a plane is never taken for curved"),
+      real("fan-border", &A::fan_border, "FACTOR",
+           "common border over the side of the smaller part"),
+      real("fan-gap", &A::fan_gap, "SIGMAS", "step across a smooth border"),
+      real("bend-angle", &A::bend_angle, "DEGREES",
+           "turn of the normal that makes a region curved"),
+      real("bend-share", &A::bend_share, "SHARE",
+           "of its variance that such a bend must explain"),
+      real("none-cost", &A::none_cost, "SIGMAS",
+           "cost of a point on no plane; larger labels more"),
+      real("label-change", &A::label_change, "SIGMAS",
+           "price of a label change on a smooth surface"),
+      real("step-sigmas", &A::step_sigmas, "SIGMAS",
+           "depth step over which that price falls"),
+      real("min-weight", &A::min_weight, "SHARE", "of that price left across a step"),
+      integer("passes", &A::passes, "COUNT",
+              "belief propagation down the image and up again"),
+      integer("rounds", &A::rounds, "COUNT", "of labelling and refitting")};
+}
+
+/// What Method::PAPER takes.
+std::vector<ParameterOption> paperOptions()
 {
   using P = Parameters;
-  static const std::vector<ParameterOption> all = {
+  return {
       integer("tile-width", &P::tile_width, "POINTS", "width of a tile"),
       integer("tile-height", &P::tile_height, "POINTS", "height of a tile"),
       choice("fit", &P::fit, FITS, "least-squares fit of a tile's plane"),
@@ -174,8 +263,6 @@ const std::vector<ParameterOption>& parameterOptions()
            "how many sigma a tile's rms distance may reach; larger keeps more tiles"),
       real("min-valid-share", &P::min_valid_share, "SHARE",
            "share of a tile's points that must be valid, 0 to 1"),
-      choice("depth", &P::depth_measure, DEPTHS,
-             "what depth is: z of the sensor (cameras), range (rotating lidars)"),
       real("beta", &P::beta, "1/M",
            "weight of the offsets' difference in a plane dissimilarity, per metre"),
       real("merge-threshold", &P::merge_threshold, "NUMBER",
@@ -191,16 +278,37 @@ const std::vector<ParameterOption>& parameterOptions()
       real("convergence-tolerance", &P::convergence_tolerance, "ENERGY",
            "stop early once no message changes by more; negative: never"),
       choice("energy", &P::compute_energy, SWITCH,
-             "record the energy of every iteration (slower)"),
-      integer("min-inliers", &P::min_inliers, "POINTS",
-              "planes with fewer points are dropped"),
-      {"threads", "COUNT", "threads to use, 0 for all cores",
-       [](P& p, const std::string& text) {
-         p.number_of_threads =
-             static_cast<unsigned int>(parseInteger("threads", text, 0, 1024));
-       },
-       [](const P& p) { return std::to_string(p.number_of_threads); }}};
+             "record the energy of every iteration (slower)")};
+}
+
+std::vector<ParameterOption> commonOptions()
+{
+  using P = Parameters;
+  return {choice("depth", &P::depth_measure, DEPTHS,
+                 "what depth is: z of the sensor (cameras), range (rotating lidars)"),
+          integer("min-inliers", &P::min_inliers, "POINTS",
+                  "planes with fewer points are dropped"),
+          {"threads", "COUNT", "threads to use, 0 for all cores",
+           [](P& p, const std::string& text) {
+             p.number_of_threads =
+                 static_cast<unsigned int>(parseInteger("threads", text, 0, 1024));
+           },
+           [](const P& p) { return std::to_string(p.number_of_threads); }}};
+}
+
+} // namespace
+
+const std::vector<ParameterOption>& commonParameterOptions()
+{
+  static const std::vector<ParameterOption> all = commonOptions();
   return all;
+}
+
+const std::vector<ParameterOption>& parameterOptions(Method method)
+{
+  static const std::vector<ParameterOption> paper = paperOptions();
+  static const std::vector<ParameterOption> adaptive = adaptiveOptions();
+  return method == Method::PAPER ? paper : adaptive;
 }
 
 std::vector<std::string> profileNames()

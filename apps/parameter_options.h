@@ -26,8 +26,11 @@ struct ParameterOption {
   std::function<std::string(const Parameters&)> print;
 };
 
-/** \brief All of them, in the order of Parameters. */
-const std::vector<ParameterOption>& parameterOptions();
+/** \brief Options that every method takes. */
+const std::vector<ParameterOption>& commonParameterOptions();
+
+/** \brief Options that one method takes and the other does not. */
+const std::vector<ParameterOption>& parameterOptions(Method method);
 
 /** \brief Names of the profiles, and the profile of a name.
  * \throws UsageError for an unknown name */

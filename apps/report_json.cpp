@@ -20,7 +20,10 @@ Json parametersJson(const Options& options)
 {
   Json result;
   result["profile"] = options.profile;
-  for (const ParameterOption& option : parameterOptions()) {
+  std::vector<ParameterOption> used = parameterOptions(options.parameters.method);
+  const std::vector<ParameterOption>& common = commonParameterOptions();
+  used.insert(used.end(), common.begin(), common.end());
+  for (const ParameterOption& option : used) {
     std::string key = option.name;
     std::replace(key.begin(), key.end(), '-', '_');
     const std::string value = option.print(options.parameters);

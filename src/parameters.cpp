@@ -31,15 +31,52 @@ private:
   std::string message_;
 };
 
+void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
+{
+  constexpr double SMALLEST = 1e-6;
+  range.check("levels", p.levels, 2, 8);
+  range.check("tile_tolerance", p.tile_tolerance, SMALLEST, LARGEST);
+  range.check("min_fill", p.min_fill, 0, 1);
+  range.check("noise_percentile", p.noise_percentile, 0, 1);
+  range.check("growth_percentile", p.growth_percentile, 0, 1);
+  range.check("max_growth", p.max_growth, 1, LARGEST);
+  range.check("long_range", p.long_range, 1, LARGEST);
+  range.check("flatness", p.flatness, 0, LARGEST);
+  range.check("max_flatness", p.max_flatness, 0, LARGEST);
+  range.check("min_sigma", p.min_sigma, 1e-9, LARGEST);
+  range.check("local_reach", p.local_reach, 0, 16);
+  range.check("local_percentile", p.local_percentile, 0, 1);
+  range.check("max_local", p.max_local, 1, LARGEST);
+  range.check("merge_tolerance", p.merge_tolerance, SMALLEST, LARGEST);
+  range.check("region_tolerance", p.region_tolerance, SMALLEST, LARGEST);
+  range.check("accept_tolerance", p.accept_tolerance, SMALLEST, LARGEST);
+  range.check("min_points", p.min_points, 1, 1e9);
+  range.check("min_width", p.min_width, 0, LARGEST);
+  range.check("join_tolerance", p.join_tolerance, SMALLEST, LARGEST);
+  range.check("join_gap", p.join_gap, 0, 1e4);
+  range.check("join_seen", p.join_seen, 0, 1);
+  range.check("fan_parts", p.fan_parts, 0, 1e6);
+  range.check("fan_angle", p.fan_angle, 0, 90);
+  range.check("fan_share", p.fan_share, 0, 1);
+  range.check("fan_border", p.fan_border, 0, LARGEST);
+  range.check("fan_gap", p.fan_gap, 0, LARGEST);
+  range.check("bend_angle", p.bend_angle, 0, 360);
+  range.check("bend_share", p.bend_share, 0, 1);
+  range.check("none_cost", p.none_cost, SMALLEST, 1e3);
+  range.check("label_change", p.label_change, 0, 1e3);
+  range.check("step_sigmas", p.step_sigmas, SMALLEST, LARGEST);
+  range.check("min_weight", p.min_weight, 0, 1);
+  range.check("passes", p.passes, 0, 100000);
+  range.check("rounds", p.rounds, 1, 10);
+}
+
 } // namespace
 
 Parameters Parameters::fromProfile(Profile profile)
 {
-  switch (profile) {
-  case Profile::PAPER:
-    break;
-  }
-  return {};
+  Parameters parameters;
+  parameters.method = profile == Profile::PAPER ? Method::PAPER : Method::ADAPTIVE;
+  return parameters;
 }
 
 std::string Parameters::validate() const
@@ -59,8 +96,11 @@ std::string Parameters::validate() const
   range.check("convergence_tolerance", convergence_tolerance, -LARGEST, LARGEST);
   range.check("min_inliers", min_inliers, 0, 1e9);
   range.check("number_of_threads", number_of_threads, 0, 1024);
+  checkAdaptive(adaptive, range);
   if (!range.message().empty())
     return range.message();
+  if (adaptive.cell != 2 && adaptive.cell != 4 && adaptive.cell != 8)
+    return "cell is " + std::to_string(adaptive.cell) + "; choose 2, 4 or 8";
   const double probe = noise.sigma(1.0);
   if (std::isnan(probe) || std::isnan(noise.sigma(10.0)) || probe <= 0.0)
     return "noise gives no positive standard deviation at 1 m; choose a preset or "

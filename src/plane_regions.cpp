@@ -30,7 +30,7 @@ void addRow(const OrganizedPoints& points, const std::vector<std::uint16_t>& lab
             std::size_t start, std::size_t end, std::vector<RegionSums>& sums)
 {
   for (std::size_t i = start; i < end;) {
-    if (points.valid[i] == 0) {
+    if (points.valid[i] == 0 || labels[i] == NO_PLANE) {
       ++i;
       continue;
     }
@@ -59,7 +59,8 @@ void addSquare(const OrganizedPoints& points, const std::vector<Plane>& planes,
   const std::size_t c = a + static_cast<std::size_t>(points.width);
   const std::size_t d = c + 1;
   const auto joined = [&](std::size_t i, std::size_t j) {
-    return points.valid[i] != 0 && points.valid[j] != 0 && labels[i] == labels[j];
+    return points.valid[i] != 0 && points.valid[j] != 0 && labels[i] == labels[j] &&
+           labels[i] != NO_PLANE;
   };
   const bool ab = joined(a, b);
   const bool cd = joined(c, d);

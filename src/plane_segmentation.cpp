@@ -67,8 +67,28 @@ double SegmentationReport::totalMs() const
   return total;
 }
 
+void SegmentationReport::count(const OrganizedPoints& organized_points,
+                               const std::vector<PlaneRegion>& regions)
+{
+  points = organized_points.size();
+  valid_points = organized_points.countValid();
+  planes = regions.size();
+  std::size_t labelled = 0;
+  for (const PlaneRegion& region : regions)
+    labelled += region.indices.size();
+  if (valid_points > 0)
+    labelled_share = static_cast<double>(labelled) / static_cast<double>(valid_points);
+}
+
 PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
                                 const Parameters& parameters)
+{
+  return parameters.method == Method::PAPER ? segmentAsInPaper(points, parameters)
+                                            : segmentAdaptively(points, parameters);
+}
+
+PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
+                                   const Parameters& parameters)
 {
   PlaneSegmentation result;
   SegmentationReport& report = result.report;
@@ -98,18 +118,10 @@ PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
   result.labels = regionLabels(points, result.regions);
   timer.finish("regions");
 
-  report.points = points.size();
-  report.valid_points = points.countValid();
   report.tiles_tried = result.tiles.tiles.size();
   report.tiles_kept = result.tiles.countKept();
   report.planes_after_merging = planes.size();
-  report.planes = result.regions.size();
-  std::size_t labelled = 0;
-  for (const PlaneRegion& region : result.regions)
-    labelled += region.indices.size();
-  if (report.valid_points > 0)
-    report.labelled_share =
-        static_cast<double>(labelled) / static_cast<double>(report.valid_points);
+  report.count(points, result.regions);
   return result;
 }
 

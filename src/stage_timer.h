@@ -18,13 +18,19 @@ public:
   , start_(Clock::now())
   {}
 
-  /// The stage that ends now began where the last one ended.
+  /// The stage that ends now began where the last one ended; a stage that comes again
+  /// adds to its time.
   void finish(const char* stage)
   {
     const Clock::time_point now = Clock::now();
-    stages_.emplace_back(
-        stage, std::chrono::duration<double, std::milli>(now - start_).count());
+    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
     start_ = now;
+    for (auto& known : stages_)
+      if (known.first == stage) {
+        known.second += ms;
+        return;
+      }
+    stages_.emplace_back(stage, ms);
   }
 
 private:

@@ -138,7 +138,7 @@ TEST(PaperEnergyTest, ManyIterationsEndBelowTheInitialLabels)
            {scenes::SensorNoise::none(), scenes::SensorNoise::kinect()}) {
         const OrganizedPoints points =
             reference::toPoints(reference::takePicture(scene, 120, 90, 5, noise));
-        Parameters parameters;
+        Parameters parameters = Parameters::fromProfile(Profile::PAPER);
         parameters.smoothness = smoothness;
         parameters.iterations = 60;
         const auto energy = energiesOf(points, parameters, 10);
@@ -154,7 +154,7 @@ TEST(PaperEnergyTest, ManySmallRoomsEndBelowTheirInitialLabels)
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const OrganizedPoints points = reference::toPoints(
         reference::takePicture("room", 80, 60, seed, scenes::SensorNoise::kinect()));
-    Parameters parameters;
+    Parameters parameters = Parameters::fromProfile(Profile::PAPER);
     parameters.lambda = seed % 2 == 0 ? 0.2 : 20.0;
     parameters.iterations = 60;
     const auto energy = energiesOf(points, parameters, 6 + static_cast<int>(seed % 5));
@@ -169,7 +169,7 @@ TEST(PaperEnergyTest, AskingForTheEnergyChangesNothing)
 {
   const OrganizedPoints points = reference::toPoints(
       reference::takePicture("room", 160, 120, 5, scenes::SensorNoise::kinect()));
-  Parameters parameters;
+  Parameters parameters = Parameters::fromProfile(Profile::PAPER);
   parameters.tile_width = parameters.tile_height = 10;
   const PlaneSegmentation without = segmentPlanes(points, parameters);
   EXPECT_TRUE(without.report.energy.empty()) << "not asked for";
@@ -181,7 +181,7 @@ TEST(PaperEnergyTest, ConvergenceStopsEarlyWithTheLabelsOfAllIterations)
 {
   const OrganizedPoints points = reference::toPoints(
       reference::takePicture("corner", 80, 60, 1, scenes::SensorNoise::none()));
-  Parameters parameters;
+  Parameters parameters = Parameters::fromProfile(Profile::PAPER);
   parameters.tile_width = parameters.tile_height = 10;
   parameters.iterations = 3000;
   const PlaneSegmentation all = segmentPlanes(points, parameters);
@@ -224,7 +224,7 @@ TEST(SceneTest, SimpleScenesAreSegmentedRightly)
        {Expectation{"corner", 3, 0.99}, Expectation{"single_plane", 1, 1.0}}) {
     const auto frame =
         reference::takePicture(e.scene, 320, 240, 1, scenes::SensorNoise::none());
-    Parameters parameters;
+    Parameters parameters = Parameters::fromProfile(Profile::PAPER);
     parameters.tile_width = parameters.tile_height = 20;
     const PlaneSegmentation result =
         segmentPlanes(reference::toPoints(frame), parameters);
@@ -240,7 +240,7 @@ TEST(SceneTest, AStepWiderThanTheMergeDistanceIsSeen)
     scenes::View view = scenes::step(gap);
     view.camera.resize(320, 240);
     const auto frame = scenes::render(view.scene, view.camera);
-    Parameters parameters;
+    Parameters parameters = Parameters::fromProfile(Profile::PAPER);
     parameters.tile_width = parameters.tile_height = 20;
     const PlaneSegmentation result =
         segmentPlanes(reference::toPoints(frame), parameters);
@@ -257,7 +257,7 @@ TEST(SceneTest, RoomsWithKinectNoise)
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const auto frame =
         reference::takePicture("room", 320, 240, seed, scenes::SensorNoise::kinect());
-    Parameters parameters;
+    Parameters parameters = Parameters::fromProfile(Profile::PAPER);
     parameters.tile_width = parameters.tile_height = 20;
     sum += shareRight(frame, segmentPlanes(reference::toPoints(frame), parameters));
   }
@@ -310,7 +310,7 @@ TEST_P(ShapeTest, EveryShapeAndPatternOfHolesIsSegmented)
 {
   const auto [kind, width, height] = GetParam();
   const OrganizedPoints points = withHoles(kind, width, height);
-  Parameters parameters;
+  Parameters parameters = Parameters::fromProfile(Profile::PAPER);
   parameters.tile_width = parameters.tile_height = 9;
   parameters.min_valid_share = 0.3;
   const PlaneSegmentation result = segmentPlanes(points, parameters);
@@ -331,7 +331,7 @@ TEST(ShapeSpecialTest, LargeImages)
   const auto frame =
       reference::takePicture("room", 1280, 960, 7, scenes::SensorNoise::kinect());
   const OrganizedPoints points = reference::toPoints(frame);
-  Parameters parameters;
+  Parameters parameters = Parameters::fromProfile(Profile::PAPER);
   parameters.number_of_threads = 2;
   const PlaneSegmentation result = segmentPlanes(points, parameters);
   EXPECT_GE(result.regions.size(), 3U);
@@ -341,7 +341,7 @@ TEST(ShapeSpecialTest, LargeImages)
 TEST(ShapeSpecialTest, DroppedPlanesLeaveTheirPointsWithoutLabel)
 {
   const OrganizedPoints points = withHoles("none", 160, 120);
-  Parameters parameters;
+  Parameters parameters = Parameters::fromProfile(Profile::PAPER);
   parameters.tile_width = parameters.tile_height = 10;
   const PlaneSegmentation all = segmentPlanes(points, parameters);
   ASSERT_GE(all.regions.size(), 2U);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/adaptive_parameters.h>
 #include <pcl_mrf_planes/noise_model.h>
 
 #include <string>
@@ -28,17 +29,30 @@ enum class DepthMeasure {
   RANGE         ///< distance to the sensor: rotating lidars
 };
 
+/** \brief Which chain of stages segments the cloud. */
+enum class Method {
+  PAPER,   ///< sections IV-A to IV-D as they stand
+  ADAPTIVE ///< the same three steps made right for noise, small planes and clutter
+};
+
 /** \brief Named sets of parameter values. */
 enum class Profile {
-  PAPER ///< the paper, equation by equation, with the values of its section V
+  DEFAULT, ///< the best segments: Method::ADAPTIVE
+  PAPER    ///< the paper, equation by equation, with the values of its section V
 };
 
 /** \brief Every number that the segmentation depends on.
  *
- * Units are metres and points; the values are those of Profile::PAPER (section V of the
- * paper where it states one).
+ * Units are metres and points. What stands here for Method::PAPER has the values of
+ * Profile::PAPER (section V of the paper where it states one).
  */
 struct Parameters {
+  Method method = Method::ADAPTIVE;
+
+  /** \brief Values of Method::ADAPTIVE, which takes of those below depth_measure and
+   * min_inliers only. */
+  AdaptiveParameters adaptive;
+
   /// \name Planar surface detection, section IV-A
   ///@{
   int tile_width = 40;  ///< points, 2 to 4096; section V

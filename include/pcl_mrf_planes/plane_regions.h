@@ -11,6 +11,9 @@
 
 namespace pcl_mrf_planes {
 
+/** \brief In place of a label plane's index: the point is on no plane. */
+constexpr std::uint16_t NO_PLANE = 65535;
+
 /** \brief The points that carry the label of one plane. */
 struct PlaneRegion {
   Plane plane;                ///< sensor frame
@@ -30,7 +33,7 @@ struct PlaneRegion {
  * along the viewing ray cancels, sampling density has no say.
  * O(points + planes)
  *
- * \param[in] labels index of a label plane for every valid point
+ * \param[in] labels index of a label plane for every valid point, or NO_PLANE
  */
 std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<Plane>& planes,

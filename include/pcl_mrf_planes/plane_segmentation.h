@@ -33,6 +33,10 @@ struct SegmentationReport {
   std::vector<std::pair<std::string, double>> stage_ms;
 
   double totalMs() const;
+
+  /** \brief Fill in what follows from the points and the regions. */
+  void count(const OrganizedPoints& organized_points,
+             const std::vector<PlaneRegion>& regions);
 };
 
 /** \brief Result of a run, in the sensor frame. */
@@ -44,11 +48,29 @@ struct PlaneSegmentation {
   SegmentationReport report;
 };
 
-/** \brief Segment organized points into planes: section IV of the paper in one function.
+/** \brief Segment organized points into planes by the method that the parameters name.
  * \param[in] points the cloud in the sensor frame
  * \param[in] parameters must pass Parameters::validate()
  */
 PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
                                 const Parameters& parameters);
+
+/** \brief Method::PAPER: section IV of the paper in one function.
+ * \param[in] points the cloud in the sensor frame
+ * \param[in] parameters must pass Parameters::validate()
+ */
+PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
+                                   const Parameters& parameters);
+
+/** \brief Method::ADAPTIVE: tiles of several sizes kept by the noise that the cloud shows,
+ * merging on pooled sums, a random field in which a plane competes only where it has
+ * support and "no plane" is a label, and a refit.
+ *
+ * Uses one thread. The result has no image of planar fits and no tile-to-plane map.
+ * \param[in] points the cloud in the sensor frame
+ * \param[in] parameters must pass Parameters::validate()
+ */
+PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
+                                    const Parameters& parameters);
 
 } // namespace pcl_mrf_planes

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_mrf_planes/plane_segmentation.h>
+
+#include "adaptive/candidate_field.h"
+#include "adaptive/noise_estimation.h"
+#include "adaptive/plane_merging.h"
+#include "adaptive/region_refinement.h"
+#include "adaptive/tile_pyramid.h"
+#include "stage_timer.h"
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+using namespace adaptive;
+
+std::size_t countTiles(const std::vector<TileLevel>& pyramid)
+{
+  std::size_t tiles = 0;
+  for (const TileLevel& level : pyramid)
+    tiles += level.sums.size();
+  return tiles;
+}
+
+/// As many points as hold the information of so many with independent noise.
+int independentPoints(int points, const NoiseLaw& noise)
+{
+  const double correlation = noise.growth.back() / noise.growth.front();
+  return static_cast<int>(points * correlation * correlation);
+}
+
+/// Labels from 1 with 0 for none, as label planes from 0 with NO_PLANE for none.
+std::vector<std::uint16_t> planeIndices(std::vector<std::uint16_t> labels)
+{
+  for (std::uint16_t& label : labels)
+    label = label == 0 ? NO_PLANE : static_cast<std::uint16_t>(label - 1);
+  return labels;
+}
+
+} // namespace
+
+PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
+                                    const Parameters& all_parameters)
+{
+  AdaptiveParameters parameters = all_parameters.adaptive;
+  PlaneSegmentation result;
+  SegmentationReport& report = result.report;
+  StageTimer timer(report.stage_ms);
+
+  // A. Planar surface detection, with tiles as large as the surfaces allow
+  std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters);
+  const NoiseLaw noise = estimateNoise(pyramid, parameters);
+  parameters.min_points = independentPoints(parameters.min_points, noise);
+  assignLocalNoise(pyramid, noise, parameters);
+  TileRegions regions = selectTiles(pyramid, noise, parameters);
+  report.tiles_tried = countTiles(pyramid);
+  report.tiles_kept = regions.planes.size();
+  timer.finish("tiles");
+
+  // B. Merging planes, on pooled sums
+  regions = mergeTouching(regions, pyramid, noise, parameters);
+  if (parameters.join_coplanar)
+    regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
+  report.planes_after_merging = regions.planes.size();
+  timer.finish("merging");
+
+  // C and D. The random field and its MAP labels; then the planes fitted to them
+  std::vector<std::uint16_t> labels;
+  for (int round = 0; round < parameters.rounds; ++round) {
+    const CandidateField field =
+        buildField(points, regions, pyramid[0], noise, parameters);
+    timer.finish("field");
+    labels = propagateBeliefs(field, points, parameters.passes);
+    report.iterations += parameters.passes;
+    timer.finish("propagation");
+    regions = refineRegions(points, pyramid[0], noise, parameters, labels);
+    timer.finish("refinement");
+  }
+  if (parameters.fan_parts > 0)
+    dropCurvedFans(points, pyramid[0], noise, parameters, regions, labels);
+  timer.finish("refinement");
+
+  const std::vector<Plane> planes(regions.planes.begin(), regions.planes.end());
+  result.regions = gatherRegions(points, planes, planeIndices(std::move(labels)),
+                                 all_parameters.min_inliers);
+  result.labels = regionLabels(points, result.regions);
+  timer.finish("regions");
+  report.count(points, result.regions);
+  return result;
+}
+
+} // namespace pcl_mrf_planes

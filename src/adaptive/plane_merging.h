@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "adaptive/noise_estimation.h"
+
+namespace pcl_mrf_planes::adaptive {
+
+/** \brief Planes found, and which plane each smallest tile belongs to (-1: none). */
+struct TileRegions {
+  std::vector<TileSums> sums;
+  std::vector<FittedPlane> planes;
+  std::vector<int> cell_region; ///< per tile of level 0
+};
+
+/** \brief Variance that a plane of the given fit is allowed: noise and flatness [m^2]. */
+double allowedVariance(const FittedPlane& plane, const NoiseLaw& noise,
+                       const AdaptiveParameters& p);
+
+/** \brief Largest tiles that one plane fits: from the top of the pyramid, split where
+ * the residual exceeds the noise of that extent. */
+TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
+                        const AdaptiveParameters& parameters);
+
+/** \brief Agglomerative merging of touching regions on pooled sums, the most alike first,
+ * while the deviation of the smaller part stays within the noise. O(n log n). */
+TileRegions mergeTouching(const TileRegions& tiles,
+                          const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
+                          const AdaptiveParameters& parameters);
+
+/** \brief Join coplanar parts with no view behind the plane between them: what separates
+ * them stands in front, so the surface may well go on behind it. */
+TileRegions joinCoplanar(const TileRegions& regions, const OrganizedPoints& points,
+                         const TileLevel& cells, const NoiseLaw& noise,
+                         const AdaptiveParameters& parameters);
+
+} // namespace pcl_mrf_planes::adaptive

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "adaptive/tile_sums.h"
+#include <pcl_mrf_planes/organized_points.h>
+
+namespace pcl_mrf_planes::adaptive {
+
+/** \brief How much a region bends, by a quadric over its own plane. */
+struct Bend {
+  double angle = 0; ///< turning of the normal from end to end [rad]
+  double share = 0; ///< share of the squared distances that the quadric explains
+};
+
+/** \brief Bend of every region; label k refers to planes[k - 1]. Every second point of
+ * every second row is used. O(points). */
+std::vector<Bend> measureBends(const OrganizedPoints& points,
+                               const std::vector<std::uint16_t>& labels,
+                               const std::vector<FittedPlane>& planes);
+
+} // namespace pcl_mrf_planes::adaptive
