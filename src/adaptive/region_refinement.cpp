@@ -1,53 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/region_refinement.h"
 #include "adaptive/surface_bend.h"
+
+#include <pcl_mrf_planes/region_contour.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numeric>
+#include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
 namespace {
 
-/// labels of 4-connected components below the least size become 0
-void dropSmallComponents(const OrganizedPoints& points, std::size_t least,
-                         std::vector<std::uint16_t>& labels)
+/// Labels of 4-connected parts below the least size become 0.
+void dropSmallParts(const OrganizedPoints& points, int least,
+                    std::vector<std::uint16_t>& labels)
 {
-  const std::size_t w = static_cast<std::size_t>(points.width);
-  std::vector<std::uint8_t> seen(labels.size(), 0);
-  std::vector<std::size_t> stack, members;
-  for (std::size_t start = 0; start < labels.size(); ++start) {
-    if (seen[start] || labels[start] == 0)
-      continue;
-    const std::uint16_t label = labels[start];
-    stack.assign(1, start);
-    members.clear();
-    seen[start] = 1;
-    while (!stack.empty()) {
-      const std::size_t i = stack.back();
-      stack.pop_back();
-      members.push_back(i);
-      const std::size_t u = i % w;
-      const auto visit = [&](std::size_t j) {
-        if (!seen[j] && labels[j] == label) {
-          seen[j] = 1;
-          stack.push_back(j);
-        }
-      };
-      if (u > 0)
-        visit(i - 1);
-      if (u + 1 < w)
-        visit(i + 1);
-      if (i >= w)
-        visit(i - w);
-      if (i + w < labels.size())
-        visit(i + w);
-    }
-    if (members.size() < least)
-      for (const std::size_t i : members)
-        labels[i] = 0;
-  }
+  const ConnectedParts parts = findConnectedParts(labels, points.width, points.height);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (labels[i] != 0 &&
+        parts.size[static_cast<std::size_t>(parts.part_of_point[i])] < least)
+      labels[i] = 0;
 }
 
 /// region of a tile: the label of most of its points
@@ -82,8 +58,7 @@ TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
                           const NoiseLaw& noise, const AdaptiveParameters& parameters,
                           std::vector<std::uint16_t>& labels)
 {
-  dropSmallComponents(points, static_cast<std::size_t>(parameters.min_points / 4),
-                      labels);
+  dropSmallParts(points, parameters.min_points / 4, labels);
   const std::size_t count = 1 + *std::max_element(labels.begin(), labels.end());
   std::vector<TileSums> sums(count);
   for (std::size_t i = 0; i < labels.size(); ++i)
@@ -118,47 +93,83 @@ TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
   return out;
 }
 
-void dropCurvedFans(const OrganizedPoints& points, const TileLevel& cells,
-                    const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                    TileRegions& regions, std::vector<std::uint16_t>& labels)
+namespace {
+
+constexpr double DEGREE = 3.14159265358979323846 / 180.0;
+
+/// Where two regions meet.
+struct Border {
+  int length = 0; ///< points
+  double step =
+      0; ///< sum of squared distances across, the smaller one of both ways, m^2
+};
+
+/// Borders by the regions on either side, the smaller number first.
+using Borders = std::map<std::pair<int, int>, Border>;
+
+/// Looks across every change of label, at points so far apart that the smoothing of edges by
+/// the sensor does not count.
+Borders findBorders(const OrganizedPoints& points, const TileRegions& regions,
+                    const std::vector<std::uint16_t>& labels)
 {
-  const std::size_t count = regions.planes.size();
-  struct Border {
-    int length = 0;
-    double step = 0; // sum of squared distances across, both ways
-  };
-  std::map<std::pair<int, int>, Border> borders;
-  const int w = points.width, h = points.height, reach = 3;
-  double valid = 0;
+  constexpr int REACH = 3;
+  const auto width = static_cast<std::size_t>(points.width);
+  Borders borders;
   const auto look = [&](std::size_t i, std::size_t j) {
-    if (!labels[j] || labels[i] == labels[j])
+    if (labels[j] == 0 || labels[i] == labels[j])
       return;
-    const int a = std::min(labels[i], labels[j]) - 1,
-              b = std::max(labels[i], labels[j]) - 1;
-    const FittedPlane& pa = regions.planes[static_cast<std::size_t>(labels[i] - 1)];
-    const FittedPlane& pb = regions.planes[static_cast<std::size_t>(labels[j] - 1)];
-    const double da = pa.distance(points.x[j], points.y[j], points.z[j]);
-    const double db = pb.distance(points.x[i], points.y[i], points.z[i]);
-    Border& border = borders[{a, b}];
+    const int a = labels[i] - 1;
+    const int b = labels[j] - 1;
+    const auto distance = [&](int region, std::size_t k) {
+      return regions.planes[static_cast<std::size_t>(region)].distance(
+          points.x[k], points.y[k], points.z[k]);
+    };
+    const double across = distance(a, j);
+    const double back = distance(b, i);
+    Border& border = borders[std::minmax(a, b)];
     ++border.length;
-    border.step += std::min(da * da, db * db);
+    border.step += std::min(across * across, back * back);
   };
-  for (int v = 0; v < h; ++v)
-    for (int u = 0; u < w; ++u) {
-      const std::size_t i = static_cast<std::size_t>(v) * static_cast<std::size_t>(w) +
-                            static_cast<std::size_t>(u);
-      valid += points.valid[i];
-      if (!labels[i])
+  for (int v = 0; v < points.height; ++v)
+    for (int u = 0; u < points.width; ++u) {
+      const std::size_t i =
+          static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u);
+      if (labels[i] == 0)
         continue;
-      if (u + reach < w && labels[i + 1] != labels[i])
-        look(i, i + static_cast<std::size_t>(reach));
-      if (v + reach < h && labels[i + static_cast<std::size_t>(w)] != labels[i])
-        look(i, i + static_cast<std::size_t>(reach) * static_cast<std::size_t>(w));
+      if (u + REACH < points.width && labels[i + 1] != labels[i])
+        look(i, i + REACH);
+      if (v + REACH < points.height && labels[i + width] != labels[i])
+        look(i, i + REACH * width);
     }
-  const double cos_fan = std::cos(parameters.fan_angle * 3.14159265358979 / 180);
-  std::vector<std::size_t> parent(count);
-  for (std::size_t k = 0; k < count; ++k)
-    parent[k] = k;
+  return borders;
+}
+
+/// True for two smaller regions that meet along a long border, in a shallow crease and
+/// without a step: facets of one curved surface.
+bool isFold(const FittedPlane& a, const FittedPlane& b, const Border& border,
+            double largest, const NoiseLaw& noise, const AdaptiveParameters& parameters)
+{
+  if (a.n > largest || b.n > largest ||
+      a.normal.dot(b.normal) < std::cos(parameters.fan_angle * DEGREE))
+    return false;
+  if (border.length < parameters.fan_border * std::sqrt(std::min(a.n, b.n)))
+    return false;
+  constexpr double STEP_SHARE = 0.002; // of the distance: points that lie apart
+  const double apart = STEP_SHARE * a.centroid.norm();
+  const double allowed = std::max(allowedVariance(a, noise, parameters),
+                                  allowedVariance(b, noise, parameters)) +
+                         apart * apart;
+  return border.step / border.length <=
+         parameters.fan_gap * parameters.fan_gap * allowed;
+}
+
+/// Number of regions in the row of folds that each region belongs to.
+std::vector<int> fanSizes(const Borders& borders, const TileRegions& regions,
+                          double largest, const NoiseLaw& noise,
+                          const AdaptiveParameters& parameters)
+{
+  std::vector<std::size_t> parent(regions.planes.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto find = [&](std::size_t k) {
     while (parent[k] != k)
       k = parent[k];
@@ -167,32 +178,38 @@ void dropCurvedFans(const OrganizedPoints& points, const TileLevel& cells,
   for (const auto& [pair, border] : borders) {
     const auto a = static_cast<std::size_t>(pair.first);
     const auto b = static_cast<std::size_t>(pair.second);
-    const FittedPlane& pa = regions.planes[a];
-    const FittedPlane& pb = regions.planes[b];
-    const double largest = parameters.fan_share * valid;
-    if (pa.n > largest || pb.n > largest || pa.normal.dot(pb.normal) < cos_fan)
-      continue;
-    if (border.length < parameters.fan_border * std::sqrt(std::min(pa.n, pb.n)))
-      continue;
-    const double allowed = std::max(allowedVariance(pa, noise, parameters),
-                                    allowedVariance(pb, noise, parameters)) +
-                           std::pow(0.002 * pa.centroid.norm(), 2);
-    if (border.step / border.length > parameters.fan_gap * parameters.fan_gap * allowed)
-      continue;
-    parent[std::max(find(a), find(b))] = std::min(find(a), find(b));
+    if (isFold(regions.planes[a], regions.planes[b], border, largest, noise,
+               parameters))
+      parent[std::max(find(a), find(b))] = std::min(find(a), find(b));
   }
-  const std::vector<Bend> bends = measureBends(points, labels, regions.planes);
-  const double turn = parameters.bend_angle * 3.14159265358979 / 180;
-  const auto curved = [&](std::size_t k) {
-    return bends[k].angle > turn && bends[k].share > parameters.bend_share;
-  };
-  std::vector<int> members(count, 0);
-  for (std::size_t k = 0; k < count; ++k)
+  std::vector<int> members(parent.size(), 0);
+  for (std::size_t k = 0; k < parent.size(); ++k)
     ++members[find(k)];
-  std::vector<std::uint16_t> id(count + 1, 0);
+  std::vector<int> sizes(parent.size());
+  for (std::size_t k = 0; k < parent.size(); ++k)
+    sizes[k] = members[find(k)];
+  return sizes;
+}
+
+} // namespace
+
+void dropCurvedFans(const OrganizedPoints& points, const TileLevel& cells,
+                    const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                    TileRegions& regions, std::vector<std::uint16_t>& labels)
+{
+  const double largest =
+      parameters.fan_share * static_cast<double>(points.countValid());
+  const std::vector<int> fan = fanSizes(findBorders(points, regions, labels), regions,
+                                        largest, noise, parameters);
+  const std::vector<Bend> bends = measureBends(points, labels, regions.planes);
+  const auto curved = [&](const Bend& bend) {
+    return bend.angle > parameters.bend_angle * DEGREE &&
+           bend.share > parameters.bend_share;
+  };
+  std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
   TileRegions kept;
-  for (std::size_t k = 0; k < count; ++k)
-    if (members[find(k)] < parameters.fan_parts && !curved(k)) {
+  for (std::size_t k = 0; k < regions.planes.size(); ++k)
+    if (fan[k] < parameters.fan_parts && !curved(bends[k])) {
       kept.planes.push_back(regions.planes[k]);
       kept.sums.push_back(regions.sums[k]);
       id[k + 1] = static_cast<std::uint16_t>(kept.planes.size());
