@@ -81,47 +81,54 @@ double NoiseLaw::growthOf(double n) const
   return g;
 }
 
-NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
-                       const AdaptiveParameters& parameters)
-{
-  NoiseLaw noise;
-  noise.floor = parameters.min_sigma;
-  noise.cell = parameters.cell;
-  const std::size_t base = pyramid.size() > 1 ? 1 : 0;
-  std::vector<Sample> samples;
-  for (const FittedPlane& p : pyramid[base].planes)
-    if (p.n > 3)
-      samples.push_back({p.centroid.norm(), unbiasedRms(p)});
-  fitDepthLaw(std::move(samples), parameters.noise_percentile, noise);
+namespace {
 
-  // growth from level to level, among parents whose children are all good
+/// Level whose tiles the noise is read from: of 2 cells.
+std::size_t baseLevel(const std::vector<TileLevel>& pyramid)
+{
+  return pyramid.size() > 1 ? 1 : 0;
+}
+
+/// Growth of the rms distance from a tile's quarters to the tile: one ratio for each tile
+/// whose quarters are all within the noise as far as it is known.
+std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
+                                 double known_growth, const NoiseLaw& noise)
+{
+  std::vector<double> ratios;
+  for (int r = 0; r < level.rows; ++r)
+    for (int c = 0; c < level.columns; ++c) {
+      const FittedPlane& parent = level.planes[level.at(c, r)];
+      if (parent.n < 4 || 2 * r + 1 >= below.rows || 2 * c + 1 >= below.columns)
+        continue;
+      double variance = 0;
+      bool good = true;
+      for (int k = 0; k < 4 && good; ++k) {
+        const FittedPlane& child = below.planes[below.at(2 * c + k % 2, 2 * r + k / 2)];
+        good = child.n > 3 &&
+               unbiasedRms(child) <
+                   2 * known_growth * noise.small(child.centroid.norm()) + 1e-12;
+        variance += good ? unbiasedRms(child) * unbiasedRms(child) / 4 : 0;
+      }
+      if (good)
+        ratios.push_back(
+            unbiasedRms(parent) /
+            std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
+    }
+  return ratios;
+}
+
+/// Growth of sigma with the level, 1 at the base level, and for planes beyond all levels.
+void estimateGrowth(const std::vector<TileLevel>& pyramid,
+                    const AdaptiveParameters& parameters, NoiseLaw& noise)
+{
+  constexpr std::size_t FEWEST = 12; // ratios for a percentile
+  const std::size_t base = baseLevel(pyramid);
   std::vector<double> step(pyramid.size(), 1.0);
   double cumulated = 1;
   for (std::size_t l = 1; l < pyramid.size(); ++l) {
-    const TileLevel& level = pyramid[l];
-    const TileLevel& below = pyramid[l - 1];
-    std::vector<double> ratios;
-    for (int r = 0; r < level.rows; ++r)
-      for (int c = 0; c < level.columns; ++c) {
-        const FittedPlane& parent = level.planes[level.at(c, r)];
-        if (parent.n < 4 || 2 * r + 1 >= below.rows || 2 * c + 1 >= below.columns)
-          continue;
-        double mean = 0;
-        bool good = true;
-        for (int k = 0; k < 4 && good; ++k) {
-          const FittedPlane& child =
-              below.planes[below.at(2 * c + k % 2, 2 * r + k / 2)];
-          good = child.n > 3 &&
-                 unbiasedRms(child) <
-                     2 * cumulated * noise.small(child.centroid.norm()) + 1e-12;
-          mean += good ? unbiasedRms(child) * unbiasedRms(child) / 4 : 0;
-        }
-        if (good)
-          ratios.push_back(
-              unbiasedRms(parent) /
-              std::max(std::sqrt(mean), noise.small(parent.centroid.norm()) / 4));
-      }
-    if (ratios.size() >= 12)
+    const std::vector<double> ratios =
+        growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise);
+    if (ratios.size() >= FEWEST)
       step[l] = std::clamp(percentile(ratios, parameters.growth_percentile), 1.0,
                            parameters.max_growth);
     if (l > base)
@@ -132,62 +139,93 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
     noise.growth[l] = noise.growth[l - 1] * step[l];
   for (std::size_t l = base; l-- > 0;)
     noise.growth[l] = noise.growth[l + 1] / step[l + 1];
-  noise.region = noise.growth.back();
-  // correlated noise keeps growing beyond the largest tile; white noise does not
+  // Correlated noise keeps growing beyond the largest tile; white noise does not.
   const double correlated = std::clamp((noise.growth.back() - 1.05) / 0.25, 0.0, 1.0);
-  noise.region *= 1 + correlated * (parameters.long_range - 1);
+  noise.region = noise.growth.back() * (1 + correlated * (parameters.long_range - 1));
+}
+
+/// Noise around each tile of a level over that of the whole cloud: a low percentile of the
+/// tiles near, so that edges do not count.
+std::vector<double> localFactors(const TileLevel& level, const NoiseLaw& noise,
+                                 const AdaptiveParameters& parameters)
+{
+  constexpr std::size_t FEWEST = 4; // tiles for a percentile
+  const int reach = parameters.local_reach;
+  std::vector<double> factors(level.sums.size(), 1.0);
+  std::vector<double> around;
+  for (int r = 0; r < level.rows; ++r)
+    for (int c = 0; c < level.columns; ++c) {
+      if (level.sums[level.at(c, r)].n < 1)
+        continue;
+      around.clear();
+      const int bottom = std::min(level.rows - 1, r + reach);
+      const int right = std::min(level.columns - 1, c + reach);
+      for (int j = std::max(0, r - reach); j <= bottom; ++j)
+        for (int i = std::max(0, c - reach); i <= right; ++i) {
+          const FittedPlane& p = level.planes[level.at(i, j)];
+          if (p.n > 3)
+            around.push_back(unbiasedRms(p) / noise.small(p.centroid.norm()));
+        }
+      if (around.size() >= FEWEST)
+        factors[level.at(c, r)] = std::clamp(
+            percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
+    }
+  return factors;
+}
+
+/// Pools the noise of the level below, and tells it to the planes.
+void poolNoise(const TileLevel* below, TileLevel& level)
+{
+  for (int r = 0; r < level.rows; ++r)
+    for (int c = 0; c < level.columns; ++c) {
+      TileSums& sums = level.sums[level.at(c, r)];
+      if (sums.n < 1)
+        continue;
+      if (below != nullptr) {
+        sums.noise = 0;
+        for (int j = 2 * r; j < std::min(2 * r + 2, below->rows); ++j)
+          for (int k = 2 * c; k < std::min(2 * c + 2, below->columns); ++k)
+            sums.noise += below->sums[below->at(k, j)].noise;
+      }
+      level.planes[level.at(c, r)].noise = sums.noise / sums.n;
+    }
+}
+
+} // namespace
+
+NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
+                       const AdaptiveParameters& parameters)
+{
+  NoiseLaw noise;
+  noise.floor = parameters.min_sigma;
+  noise.cell = parameters.cell;
+  std::vector<Sample> samples;
+  for (const FittedPlane& p : pyramid[baseLevel(pyramid)].planes)
+    if (p.n > 3)
+      samples.push_back({p.centroid.norm(), unbiasedRms(p)});
+  fitDepthLaw(std::move(samples), parameters.noise_percentile, noise);
+  estimateGrowth(pyramid, parameters, noise);
   return noise;
 }
 
 void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                       const AdaptiveParameters& parameters)
 {
-  const std::size_t base = pyramid.size() > 1 ? 1 : 0;
+  const std::size_t base = baseLevel(pyramid);
   const TileLevel& level = pyramid[base];
-  std::vector<double> factor(level.sums.size(), 1.0), around;
-  const int reach = parameters.local_reach;
-  for (int r = 0; r < level.rows; ++r)
-    for (int c = 0; c < level.columns; ++c) {
-      if (level.sums[level.at(c, r)].n < 1)
-        continue;
-      around.clear();
-      for (int j = std::max(0, r - reach); j <= std::min(level.rows - 1, r + reach);
-           ++j)
-        for (int i = std::max(0, c - reach);
-             i <= std::min(level.columns - 1, c + reach); ++i) {
-          const FittedPlane& p = level.planes[level.at(i, j)];
-          if (p.n > 3)
-            around.push_back(unbiasedRms(p) / noise.small(p.centroid.norm()));
-        }
-      if (around.size() >= 4)
-        factor[level.at(c, r)] = std::clamp(
-            percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
-    }
+  const std::vector<double> factors = localFactors(level, noise, parameters);
   TileLevel& cells = pyramid[0];
   for (int r = 0; r < cells.rows; ++r)
     for (int c = 0; c < cells.columns; ++c) {
-      TileSums& s = cells.sums[cells.at(c, r)];
-      if (s.n < 1)
+      TileSums& sums = cells.sums[cells.at(c, r)];
+      if (sums.n < 1)
         continue;
-      const double range = std::sqrt(s.x * s.x + s.y * s.y + s.z * s.z) / s.n;
-      const double sigma = noise.small(range) * factor[level.at(c >> base, r >> base)];
-      s.noise = s.n * sigma * sigma;
+      const double sigma =
+          noise.small(sums.centroid().norm()) * factors[level.at(c >> base, r >> base)];
+      sums.noise = sums.n * sigma * sigma;
     }
   for (std::size_t l = 0; l < pyramid.size(); ++l)
-    for (int r = 0; r < pyramid[l].rows; ++r)
-      for (int c = 0; c < pyramid[l].columns; ++c) {
-        const std::size_t i = pyramid[l].at(c, r);
-        if (pyramid[l].sums[i].n < 1)
-          continue;
-        if (l > 0) {
-          const TileLevel& below = pyramid[l - 1];
-          pyramid[l].sums[i].noise = 0;
-          for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
-            for (int k = 2 * c; k < std::min(2 * c + 2, below.columns); ++k)
-              pyramid[l].sums[i].noise += below.sums[below.at(k, j)].noise;
-        }
-        pyramid[l].planes[i].noise = pyramid[l].sums[i].noise / pyramid[l].sums[i].n;
-      }
+    poolNoise(l > 0 ? &pyramid[l - 1] : nullptr, pyramid[l]);
 }
 
 } // namespace pcl_mrf_planes::adaptive
