@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/plane_merging.h"
+#include "adaptive/region_graph.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace pcl_mrf_planes::adaptive {
+
+namespace {
+
+struct Cell {
+  int column, row;
+};
+
+/// What lies between two regions of the image.
+class Gap {
+public:
+  Gap(const TileRegions& regions, const OrganizedPoints& points, const TileLevel& cells,
+      const AdaptiveParameters& parameters)
+  : points_(points)
+  , side_(cells.side)
+  , parameters_(parameters)
+  , members_(regions.planes.size())
+  {
+    for (int r = 0; r < cells.rows; ++r)
+      for (int c = 0; c < cells.columns; ++c)
+        if (const int id = regions.cell_region[cells.at(c, r)]; id >= 0)
+          members_[static_cast<std::size_t>(id)].push_back({c, r});
+  }
+
+  /// True if the gap is not wide and nothing in it lies behind the plane: what separates
+  /// the parts stands in front, so the surface may well go on behind it.
+  bool mayHidePlane(int a, int b, const FittedPlane& plane, double tolerance) const
+  {
+    constexpr std::size_t WALKS = 12;
+    const std::vector<Cell>& from = members_[static_cast<std::size_t>(a)];
+    const std::vector<Cell>& to = members_[static_cast<std::size_t>(b)];
+    Walked walked;
+    int gap = std::numeric_limits<int>::max();
+    const std::size_t stride = std::max<std::size_t>(1, from.size() / WALKS);
+    for (std::size_t k = stride / 2; k < from.size(); k += stride) {
+      const Cell& nearest = nearestOf(to, from[k]);
+      gap = std::min(gap, squaredDistance(from[k], nearest));
+      walk(plane, tolerance, from[k], nearest, walked);
+    }
+    const auto smaller = static_cast<double>(std::min(from.size(), to.size()));
+    return walked.off_plane <= parameters_.join_seen * walked.points &&
+           gap <= parameters_.join_gap * parameters_.join_gap * smaller;
+  }
+
+private:
+  struct Walked {
+    int points = 0;
+    int off_plane = 0;
+  };
+
+  static int squaredDistance(const Cell& a, const Cell& b)
+  {
+    const int dx = a.column - b.column;
+    const int dy = a.row - b.row;
+    return dx * dx + dy * dy;
+  }
+
+  static const Cell& nearestOf(const std::vector<Cell>& cells, const Cell& to)
+  {
+    return *std::min_element(cells.begin(), cells.end(),
+                             [&](const Cell& a, const Cell& b) {
+                               return squaredDistance(a, to) < squaredDistance(b, to);
+                             });
+  }
+
+  int middle(int cell, int size) const
+  {
+    return std::min(cell * side_ + side_ / 2, size - 1);
+  }
+
+  /// Counts the points on the straight way between the middles of two cells.
+  void walk(const FittedPlane& plane, double tolerance, const Cell& from,
+            const Cell& to, Walked& walked) const
+  {
+    const int u0 = middle(from.column, points_.width);
+    const int v0 = middle(from.row, points_.height);
+    const int du = middle(to.column, points_.width) - u0;
+    const int dv = middle(to.row, points_.height) - v0;
+    const int steps = std::max(std::abs(du), std::abs(dv));
+    for (int k = 1; k < steps; ++k) {
+      const auto u = static_cast<std::size_t>(u0 + du * k / steps);
+      const auto v = static_cast<std::size_t>(v0 + dv * k / steps);
+      const std::size_t i = v * static_cast<std::size_t>(points_.width) + u;
+      if (points_.valid[i] == 0)
+        continue;
+      ++walked.points;
+      const double distance = plane.distance(points_.x[i], points_.y[i], points_.z[i]);
+      const bool in_front = distance > tolerance;
+      if (distance < -tolerance || (in_front && !parameters_.join_over_occluders))
+        ++walked.off_plane;
+    }
+  }
+
+  const OrganizedPoints& points_;
+  int side_;
+  const AdaptiveParameters& parameters_;
+  std::vector<std::vector<Cell>> members_;
+};
+
+} // namespace
+
+TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points,
+                         const TileLevel& cells, const NoiseLaw& noise,
+                         const AdaptiveParameters& parameters)
+{
+  constexpr double LEAST_COSINE = 0.9; // of the normals: spares most of the fits
+  constexpr double BEHIND = 3.0;       // sigmas
+  const double limit = parameters.join_tolerance * parameters.join_tolerance;
+  Regions regions(parts);
+  const Gap gap(parts, points, cells, parameters);
+  const auto cost = [&](int a, int b) {
+    return dissimilarity(regions.plane(a), regions.plane(b),
+                         regions.sums(a) + regions.sums(b), noise, parameters);
+  };
+
+  std::vector<Candidate> pairs;
+  for (int a = 0; a < regions.size(); ++a)
+    for (int b = a + 1; b < regions.size(); ++b) {
+      if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE)
+        continue;
+      const double c = cost(a, b);
+      if (c >= 0 && c <= limit)
+        pairs.push_back({c, a, b, 0, 0});
+    }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Candidate& p, const Candidate& q) { return q < p; });
+
+  for (const Candidate& pair : pairs) {
+    const int a = regions.find(pair.a);
+    const int b = regions.find(pair.b);
+    if (a == b)
+      continue;
+    const double c = cost(a, b); // either may have grown since
+    if (c < 0 || c > limit)
+      continue;
+    const FittedPlane joint = fitSums(regions.sums(a) + regions.sums(b));
+    const double tolerance =
+        BEHIND * std::sqrt(allowedVariance(joint, noise, parameters));
+    if (gap.mayHidePlane(pair.a, pair.b, joint, tolerance))
+      regions.merge(a, b);
+  }
+  return collect(regions, parts.cell_region, 0.5 * parameters.min_points);
+}
+
+} // namespace pcl_mrf_planes::adaptive

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/region_graph.h"
+
+namespace pcl_mrf_planes::adaptive {
+
+double dissimilarity(const FittedPlane& a, const FittedPlane& b, const TileSums& joint,
+                     const NoiseLaw& noise, const AdaptiveParameters& p)
+{
+  const FittedPlane plane = fitSums(joint);
+  const double growth = plane.mse * plane.n - a.mse * a.n - b.mse * b.n;
+  const double allowed = allowedVariance(plane, noise, p);
+  if (plane.mse > p.region_tolerance * p.region_tolerance * allowed)
+    return -1;
+  return std::max(0.0, growth) / std::min(a.n, b.n) / allowed;
+}
+
+TileRegions collect(Regions& regions, const std::vector<int>& cell_region, double least)
+{
+  TileRegions out;
+  std::vector<int> id(static_cast<std::size_t>(regions.size()), -1);
+  for (int i = 0; i < regions.size(); ++i)
+    if (regions.find(i) == i && regions.sums(i).n >= least) {
+      id[static_cast<std::size_t>(i)] = static_cast<int>(out.planes.size());
+      out.planes.push_back(regions.plane(i));
+      out.sums.push_back(regions.sums(i));
+    }
+  out.cell_region.resize(cell_region.size());
+  for (std::size_t c = 0; c < cell_region.size(); ++c)
+    out.cell_region[c] =
+        cell_region[c] < 0 ? -1
+                           : id[static_cast<std::size_t>(regions.find(cell_region[c]))];
+  return out;
+}
+
+} // namespace pcl_mrf_planes::adaptive
