@@ -86,9 +86,11 @@ private:
     const int dv = middle(to.row, points_.height) - v0;
     const int steps = std::max(std::abs(du), std::abs(dv));
     for (int k = 1; k < steps; ++k) {
-      const auto u = static_cast<std::size_t>(u0 + du * k / steps);
-      const auto v = static_cast<std::size_t>(v0 + dv * k / steps);
-      const std::size_t i = v * static_cast<std::size_t>(points_.width) + u;
+      const int u = u0 + du * k / steps;
+      const int v = v0 + dv * k / steps;
+      const std::size_t i =
+          static_cast<std::size_t>(v) * static_cast<std::size_t>(points_.width) +
+          static_cast<std::size_t>(u);
       if (points_.valid[i] == 0)
         continue;
       ++walked.points;

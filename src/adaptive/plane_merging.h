@@ -28,7 +28,7 @@ TileRegions mergeTouching(const TileRegions& tiles,
 
 /** \brief Join coplanar parts with no view behind the plane between them: what separates
  * them stands in front, so the surface may well go on behind it. */
-TileRegions joinCoplanar(const TileRegions& regions, const OrganizedPoints& points,
+TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points,
                          const TileLevel& cells, const NoiseLaw& noise,
                          const AdaptiveParameters& parameters);
 
