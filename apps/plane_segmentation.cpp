@@ -79,7 +79,7 @@ void run(const Options& options)
   printPlanes(std::cout, result);
   if (options.timing)
     printTiming(std::cout, result.timing);
-  printSummary(std::cout, result);
+  printSummary(std::cout, result, options.parameters);
   if (!std::cout.flush())
     throw std::runtime_error("cannot write to standard output");
 }

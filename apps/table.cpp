@@ -55,7 +55,23 @@ void printTiming(std::ostream& out, const Timing& timing)
   line("total", timing.total());
 }
 
-void printSummary(std::ostream& out, const SegmentedCloud& result)
+namespace {
+
+/// What to try where no plane was found.
+const char* advice(std::size_t tiles_kept, const Parameters& parameters)
+{
+  const bool paper = parameters.method == Method::PAPER;
+  if (tiles_kept == 0)
+    return paper ? "; try another --noise (none keeps every tile) or smaller tiles"
+                 : "; try a larger --tile-tolerance or a smaller --min-fill";
+  return paper ? "; try a smaller --min-inliers"
+               : "; try a smaller --min-points or --min-inliers";
+}
+
+} // namespace
+
+void printSummary(std::ostream& out, const SegmentedCloud& result,
+                  const Parameters& parameters)
 {
   const SegmentationReport& report = result.report;
   const std::size_t planes = result.planes.size();
@@ -71,9 +87,7 @@ void printSummary(std::ostream& out, const SegmentedCloud& result)
       << std::to_string(report.tiles_tried) << " tiles kept, "
       << fixed(result.timing.total().median, 1) << " ms";
   if (planes == 0)
-    out << (report.tiles_kept == 0 ? "; try another --noise (none keeps every tile) or "
-                                     "smaller tiles"
-                                   : "; try a smaller --min-inliers");
+    out << advice(report.tiles_kept, parameters);
   out << '\n';
 }
 

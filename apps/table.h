@@ -14,6 +14,7 @@ void printPlanes(std::ostream& out, const SegmentedCloud& result);
 void printTiming(std::ostream& out, const Timing& timing);
 
 /** \brief One line: how many planes on how many points, and what to try if none. */
-void printSummary(std::ostream& out, const SegmentedCloud& result);
+void printSummary(std::ostream& out, const SegmentedCloud& result,
+                  const Parameters& parameters);
 
 } // namespace pcl_mrf_planes::apps

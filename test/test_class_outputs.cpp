@@ -28,6 +28,7 @@ scenes::SceneFrame room(int width = 160, int height = 120)
 
 void prepare(Segmentation& segmentation, const Cloud::ConstPtr& cloud)
 {
+  segmentation.setProfile(Profile::PAPER);
   segmentation.setTileSize(10, 10);
   segmentation.setInputCloud(cloud);
 }
@@ -86,6 +87,45 @@ TEST(ClassOutputTest, AllShapesTellTheSame)
   EXPECT_EQ(report.iterations, 5);
   EXPECT_DOUBLE_EQ(report.labelled_share, 1.0);
   EXPECT_GT(report.totalMs(), 0.0);
+}
+
+TEST(ClassOutputTest, TheDefaultProfileLeavesOutWhatIsOnNoPlane)
+{
+  const Cloud::Ptr cloud = reference::toCloud<pcl::PointXYZ>(room(320, 240));
+  Segmentation segmentation;
+  segmentation.setInputCloud(cloud);
+  EXPECT_EQ(segmentation.getParameters().method, Method::ADAPTIVE);
+  Output output;
+  output.run(segmentation);
+  ASSERT_GE(output.models.size(), 3U);
+  ASSERT_EQ(output.inliers.size(), output.models.size());
+  ASSERT_EQ(output.label_indices.size(), output.models.size() + 1);
+  EXPECT_TRUE(output.label_indices[0].indices.empty()) << "no plane is no region";
+  std::size_t in_planes = 0;
+  for (std::size_t k = 0; k < output.models.size(); ++k) {
+    EXPECT_EQ(output.label_indices[k + 1].indices, output.inliers[k].indices);
+    for (const auto i : output.inliers[k].indices)
+      ASSERT_EQ(output.labels[static_cast<std::size_t>(i)].label, k + 1);
+    in_planes += output.inliers[k].indices.size();
+  }
+  std::size_t labelled = 0;
+  std::size_t left_out = 0;
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    const bool valid = std::isfinite((*cloud)[i].z);
+    labelled += output.labels[i].label != 0 ? 1U : 0U;
+    left_out += valid && output.labels[i].label == 0 ? 1U : 0U;
+    EXPECT_TRUE(valid || output.labels[i].label == 0) << "invalid point " << i;
+  }
+  EXPECT_EQ(labelled, in_planes);
+  EXPECT_GT(left_out, 0U) << "a furnished room has points on no plane";
+  const auto& report = segmentation.getReport();
+  EXPECT_EQ(report.planes, output.models.size());
+  EXPECT_EQ(report.valid_points, labelled + left_out);
+  EXPECT_LT(report.labelled_share, 1.0);
+
+  Segmentation paper;
+  paper.setProfile(Profile::PAPER);
+  EXPECT_EQ(paper.getParameters().method, Method::PAPER);
 }
 
 TEST(ClassOutputTest, RegionsHaveTheStatisticsAndTheBorder)
@@ -253,6 +293,7 @@ TEST(ClassOutputTest, ColourHasNoInfluence)
   std::vector<std::uint32_t> labels[2];
   for (int i = 0; i < 2; ++i) {
     pcl::MRFPlaneSegmentation<pcl::PointXYZRGB> segmentation;
+    segmentation.setProfile(Profile::PAPER);
     segmentation.setTileSize(10, 10);
     segmentation.setInputCloud(i == 0 ? grey : colourful);
     reference::Output<pcl::PointXYZRGB> output;
@@ -334,6 +375,7 @@ TEST(SwapTest, TheSameProgramRunsWithBothClasses)
   theirs.setInputNormals(normals);
   theirs.setMinInliers(500);
   pcl::MRFPlaneSegmentation<pcl::PointXYZ> ours;
+  ours.setProfile(Profile::PAPER);
   ours.setTileSize(10, 10);
   ours.setMinInliers(500);
   const std::size_t by_theirs = programOfAUser(theirs, cloud);

@@ -55,6 +55,22 @@ Setting real(const char* name, double Parameters::*member, double low, double hi
   return {name, [member](Parameters& p, double v) { p.*member = v; }, low, high, false};
 }
 
+Setting whole(const char* name, int AdaptiveParameters::*member, double low,
+              double high)
+{
+  return {
+      name,
+      [member](Parameters& p, double v) { p.adaptive.*member = static_cast<int>(v); },
+      low, high, true};
+}
+
+Setting real(const char* name, double AdaptiveParameters::*member, double low,
+             double high)
+{
+  return {name, [member](Parameters& p, double v) { p.adaptive.*member = v; }, low,
+          high, false};
+}
+
 class ParameterRangeTest : public testing::TestWithParam<Setting> {};
 
 TEST_P(ParameterRangeTest, EndsAreTakenAndBeyondIsNamed)
@@ -96,6 +112,68 @@ INSTANTIATE_TEST_SUITE_P(
                     real("convergence_tolerance", &Parameters::convergence_tolerance,
                          -1e6, 1e6),
                     whole("min_inliers", &Parameters::min_inliers, 0, 1e9)));
+
+INSTANTIATE_TEST_SUITE_P(
+    Adaptive, ParameterRangeTest,
+    testing::Values(
+        whole("levels", &AdaptiveParameters::levels, 2, 8),
+        real("tile_tolerance", &AdaptiveParameters::tile_tolerance, 1e-6, 1e6),
+        real("min_fill", &AdaptiveParameters::min_fill, 0, 1),
+        real("noise_percentile", &AdaptiveParameters::noise_percentile, 0, 1),
+        real("growth_percentile", &AdaptiveParameters::growth_percentile, 0, 1),
+        real("max_growth", &AdaptiveParameters::max_growth, 1, 1e6),
+        real("long_range", &AdaptiveParameters::long_range, 1, 1e6),
+        real("flatness", &AdaptiveParameters::flatness, 0, 1e6),
+        real("max_flatness", &AdaptiveParameters::max_flatness, 0, 1e6),
+        real("min_sigma", &AdaptiveParameters::min_sigma, 1e-9, 1e6),
+        whole("local_reach", &AdaptiveParameters::local_reach, 0, 16),
+        real("local_percentile", &AdaptiveParameters::local_percentile, 0, 1),
+        real("max_local", &AdaptiveParameters::max_local, 1, 1e6),
+        real("merge_tolerance", &AdaptiveParameters::merge_tolerance, 1e-6, 1e6),
+        real("region_tolerance", &AdaptiveParameters::region_tolerance, 1e-6, 1e6),
+        real("accept_tolerance", &AdaptiveParameters::accept_tolerance, 1e-6, 1e6),
+        whole("min_points", &AdaptiveParameters::min_points, 1, 1e9),
+        real("min_width", &AdaptiveParameters::min_width, 0, 1e6),
+        real("join_tolerance", &AdaptiveParameters::join_tolerance, 1e-6, 1e6),
+        real("join_gap", &AdaptiveParameters::join_gap, 0, 1e4),
+        real("join_seen", &AdaptiveParameters::join_seen, 0, 1),
+        whole("fan_parts", &AdaptiveParameters::fan_parts, 0, 1e6),
+        real("fan_angle", &AdaptiveParameters::fan_angle, 0, 90),
+        real("fan_share", &AdaptiveParameters::fan_share, 0, 1),
+        real("fan_border", &AdaptiveParameters::fan_border, 0, 1e6),
+        real("fan_gap", &AdaptiveParameters::fan_gap, 0, 1e6),
+        real("bend_angle", &AdaptiveParameters::bend_angle, 0, 360),
+        real("bend_share", &AdaptiveParameters::bend_share, 0, 1),
+        real("none_cost", &AdaptiveParameters::none_cost, 1e-6, 1e3),
+        real("label_change", &AdaptiveParameters::label_change, 0, 1e3),
+        real("step_sigmas", &AdaptiveParameters::step_sigmas, 1e-6, 1e6),
+        real("min_weight", &AdaptiveParameters::min_weight, 0, 1),
+        whole("passes", &AdaptiveParameters::passes, 0, 100000),
+        whole("rounds", &AdaptiveParameters::rounds, 1, 10)));
+
+TEST(ParametersTest, CellsAreTwoFourOrEightPoints)
+{
+  Parameters p;
+  for (const int good : {2, 4, 8}) {
+    p.adaptive.cell = good;
+    EXPECT_EQ(p.validate(), "") << "a cell of " << good << " points is a choice";
+  }
+  for (const int bad : {-4, 0, 1, 3, 5, 6, 7, 9, 16}) {
+    p.adaptive.cell = bad;
+    EXPECT_EQ(p.validate().find("cell is " + std::to_string(bad)), 0U)
+        << "a cell of " << bad << " points must be refused by name, got '"
+        << p.validate() << "'";
+  }
+}
+
+TEST(ParametersTest, ProfilesNameTheMethodAndShareTheOtherValues)
+{
+  EXPECT_EQ(Parameters().method, Method::ADAPTIVE) << "the default in the class";
+  EXPECT_EQ(Parameters::fromProfile(Profile::DEFAULT).method, Method::ADAPTIVE);
+  EXPECT_EQ(Parameters::fromProfile(Profile::PAPER).method, Method::PAPER);
+  EXPECT_EQ(Parameters::fromProfile(Profile::DEFAULT).validate(), "")
+      << "the default values must be valid";
+}
 
 TEST(ParametersTest, ThreadsHaveAnUpperEnd)
 {

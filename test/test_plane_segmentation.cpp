@@ -113,7 +113,7 @@ TEST(PaperEnergyTest, FiveIterationsLowerTheEnergyOfNoisyRooms)
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const OrganizedPoints points = reference::toPoints(
         reference::takePicture("room", 320, 240, seed, scenes::SensorNoise::kinect()));
-    const auto energy = energiesOf(points, Parameters(), 20);
+    const auto energy = energiesOf(points, Parameters::fromProfile(Profile::PAPER), 20);
     ASSERT_EQ(energy.size(), 6U) << "initial labels and five iterations";
     EXPECT_LT(energy.back().total(), 0.9 * energy.front().total())
         << "belief propagation must smooth away noise, room " << seed;

@@ -138,31 +138,33 @@ private:
     if (count < 2) // nothing to choose from
       return;
     const std::size_t start = f_.dataRow(block, row);
-    Beliefs total;
-    Beliefs out;
-    beliefs(block, row, total);
-
     const BlockRow& right = f_.right[CandidateField::weightRow(block, row)];
-    messages(total, count, start, RIGHT, right, out);
-    for (std::size_t s = 0; s < count; ++s)
-      received_[start + s].from[LEFT] =
-          shiftRight(out[s].v, received_[start + s].from[LEFT][0]);
-    if (column + 1 < blocks_.columns)
-      sendAcross(block, block + 1, row, RIGHT, right.v[LAST], out);
-
     BlockRow left; // the weight to the left is the left point's weight to the right
-    const std::int16_t first =
-        column > 0 ? f_.right[CandidateField::weightRow(block - 1, row)].v[LAST]
-                   : std::int16_t{0};
-    left.v = shiftRight(right.v, first);
-    messages(total, count, start, LEFT, left, out);
-    for (std::size_t s = 0; s < count; ++s)
-      received_[start + s].from[RIGHT] =
-          shiftLeft(out[s].v, received_[start + s].from[RIGHT][LAST]);
-    if (column > 0)
-      sendAcross(block, block - 1, row, LEFT, left.v[0], out);
+    left.v = shiftRight(
+        right.v, column > 0
+                     ? f_.right[CandidateField::weightRow(block - 1, row)].v[LAST]
+                     : std::int16_t{0});
 
-    sendToRow(column, block_row, row, next_row, total, out);
+    // All messages from the same beliefs, before any of them is written: the row is its own
+    // neighbour.
+    Beliefs total;
+    Beliefs rightward;
+    Beliefs leftward;
+    Beliefs onward;
+    beliefs(block, row, total);
+    messages(total, count, start, RIGHT, right, rightward);
+    messages(total, count, start, LEFT, left, leftward);
+    sendToRow(column, block_row, row, next_row, total, onward);
+
+    for (std::size_t s = 0; s < count; ++s) {
+      auto& from = received_[start + s].from;
+      from[LEFT] = shiftRight(rightward[s].v, from[LEFT][0]);
+      from[RIGHT] = shiftLeft(leftward[s].v, from[RIGHT][LAST]);
+    }
+    if (column + 1 < blocks_.columns)
+      sendAcross(block, block + 1, row, RIGHT, right.v[LAST], rightward);
+    if (column > 0)
+      sendAcross(block, block - 1, row, LEFT, left.v[0], leftward);
   }
 
   /// The message of the outermost point of a row to the block beside it.

@@ -11,57 +11,81 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::vector<std::string> OPTIONS = {"models",
-                                          "label-image",
-                                          "overlay",
-                                          "format",
-                                          "config",
-                                          "profile",
-                                          "repeat",
-                                          "timing",
-                                          "quiet",
-                                          "help",
-                                          "version",
-                                          "tile-width",
-                                          "tile-height",
-                                          "fit",
-                                          "noise",
-                                          "noise-multiplier",
-                                          "min-valid-share",
-                                          "depth",
-                                          "beta",
-                                          "merge-threshold",
-                                          "max-planes",
-                                          "lambda",
-                                          "tau",
-                                          "smoothness",
-                                          "gamma",
-                                          "iterations",
-                                          "convergence-tolerance",
-                                          "energy",
-                                          "min-inliers",
-                                          "threads"};
+/// A parameter with a value that is not its default, as the JSON shows it.
+using Values = std::vector<std::pair<std::string, Json>>;
 
-/// Every parameter with a value that is not its default, as the JSON shows it.
-const std::vector<std::pair<std::string, Json>> VALUES = {
-    {"tile-width", 16},
-    {"tile-height", 12},
-    {"fit", "geometric"},
-    {"noise", "0.002,0.0005,0.001"},
-    {"noise-multiplier", 2.5},
-    {"min-valid-share", 0.25},
-    {"depth", "range"},
-    {"beta", 0.75},
-    {"merge-threshold", 0.05},
-    {"max-planes", 17},
-    {"lambda", 1.5},
-    {"tau", 0.125},
-    {"smoothness", "predicted-depth"},
-    {"gamma", 0.3},
-    {"iterations", 7},
-    {"convergence-tolerance", 1e-05},
-    {"min-inliers", 30},
-    {"threads", 2}};
+const std::vector<std::string> OTHER_OPTIONS = {
+    "models", "label-image", "overlay", "format", "config", "profile",
+    "repeat", "timing",      "quiet",   "help",   "version"};
+
+const Values COMMON = {{"depth", "range"}, {"min-inliers", 30}, {"threads", 2}};
+
+/// Of profile paper; --energy, a switch, comes on top.
+const Values PAPER = {{"tile-width", 16},
+                      {"tile-height", 12},
+                      {"fit", "geometric"},
+                      {"noise", "0.002,0.0005,0.001"},
+                      {"noise-multiplier", 2.5},
+                      {"min-valid-share", 0.25},
+                      {"beta", 0.75},
+                      {"merge-threshold", 0.05},
+                      {"max-planes", 17},
+                      {"lambda", 1.5},
+                      {"tau", 0.125},
+                      {"smoothness", "predicted-depth"},
+                      {"gamma", 0.3},
+                      {"iterations", 7},
+                      {"convergence-tolerance", 1e-05}};
+
+/// Of profile default.
+const Values ADAPTIVE = {{"cell", 8},
+                         {"levels", 3},
+                         {"tile-tolerance", 2.25},
+                         {"min-fill", 0.625},
+                         {"noise-percentile", 0.55},
+                         {"growth-percentile", 0.45},
+                         {"max-growth", 1.75},
+                         {"long-range", 1.625},
+                         {"flatness", 0.011},
+                         {"max-flatness", 0.0035},
+                         {"min-sigma", 3e-05},
+                         {"local-reach", 3},
+                         {"local-percentile", 0.375},
+                         {"max-local", 3.5},
+                         {"merge-tolerance", 2.75},
+                         {"region-tolerance", 2.125},
+                         {"accept-tolerance", 1.875},
+                         {"min-points", 150},
+                         {"min-width", 2.5},
+                         {"join-coplanar", false},
+                         {"join-tolerance", 1.75},
+                         {"join-gap", 2.5},
+                         {"join-seen", 0.125},
+                         {"join-over-occluders", false},
+                         {"fan-parts", 4},
+                         {"fan-angle", 21.5},
+                         {"fan-share", 0.007},
+                         {"fan-border", 0.375},
+                         {"fan-gap", 2.5},
+                         {"bend-angle", 17.5},
+                         {"bend-share", 0.375},
+                         {"none-cost", 4.5},
+                         {"label-change", 1.25},
+                         {"step-sigmas", 6.5},
+                         {"min-weight", 0.125},
+                         {"passes", 2},
+                         {"rounds", 1}};
+
+/// All of a profile, after the common ones.
+Values valuesOf(const std::string& profile)
+{
+  Values values = COMMON;
+  const Values& own = profile == "paper" ? PAPER : ADAPTIVE;
+  values.insert(values.end(), own.begin(), own.end());
+  if (profile == "paper")
+    values.emplace_back("energy", true);
+  return values;
+}
 
 std::string textOf(const Json& value)
 {
@@ -73,6 +97,17 @@ std::string keyOf(std::string name)
   for (char& c : name)
     c = c == '-' ? '_' : c;
   return name;
+}
+
+std::vector<std::string> optionsOf(const std::string& profile)
+{
+  std::vector<std::string> options = {"--profile", profile};
+  for (const auto& value : valuesOf(profile)) {
+    options.push_back("--" + value.first);
+    if (value.first != "energy") // a switch
+      options.push_back(textOf(value.second));
+  }
+  return options;
 }
 
 } // namespace
@@ -99,10 +134,16 @@ TEST_F(CommandLine, HelpNamesEveryOption)
   const Outcome outcome = segment({"--help"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const std::string& option : OPTIONS)
+  std::vector<std::string> names = OTHER_OPTIONS;
+  for (const char* profile : {"default", "paper"})
+    for (const auto& value : valuesOf(profile))
+      names.push_back(value.first);
+  for (const std::string& option : names)
     EXPECT_NE(outcome.out.find("--" + option + " "), std::string::npos) << option;
-  for (const char* word : {"(default: 40)", "(default: kinect)", "structured_light",
-                           "predicted-depth", "geometric", "Exit status"})
+  for (const char* word :
+       {"Parameters of profile default", "Parameters of profile paper", "(default: 40)",
+        "(default: kinect)", "structured_light", "predicted-depth", "geometric",
+        "Exit status"})
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   EXPECT_EQ(segment({"-h"}).out, outcome.out);
 }
@@ -117,68 +158,122 @@ TEST_F(CommandLine, VersionIsANumber)
 
 TEST_F(CommandLine, EveryParameterIsAnOption)
 {
-  std::vector<std::string> options = {"--energy"};
-  for (const auto& value : VALUES)
-    options.insert(options.end(), {"--" + value.first, textOf(value.second)});
-  const Json parameters = reportOf(options)["parameters"];
-  for (const auto& value : VALUES)
-    EXPECT_EQ(parameters[keyOf(value.first)], value.second) << value.first;
-  EXPECT_EQ(parameters["energy"], true);
-  EXPECT_EQ(parameters.size(), VALUES.size() + 2) << "energy, profile and these";
+  for (const std::string profile : {"default", "paper"}) {
+    const Json defaults = reportOf({"--profile", profile})["parameters"];
+    const Json parameters = reportOf(optionsOf(profile))["parameters"];
+    const Values values = valuesOf(profile);
+    for (const auto& value : values) {
+      const std::string key = keyOf(value.first);
+      ASSERT_TRUE(parameters.contains(key)) << profile << ": " << value.first;
+      EXPECT_EQ(parameters[key], value.second) << profile << ": " << value.first;
+      EXPECT_NE(defaults[key], value.second)
+          << profile << ": " << value.first << " is its default, which proves nothing";
+    }
+    EXPECT_EQ(parameters["profile"], profile);
+    EXPECT_EQ(parameters.size(), values.size() + 1) << "profile and these";
+  }
+}
+
+TEST_F(CommandLine, TheProfileIsDefaultUnlessNamed)
+{
+  EXPECT_EQ(reportOf({}), reportOf({"--profile", "default"}));
+}
+
+TEST_F(CommandLine, AnOptionOfTheOtherProfileIsRefused)
+{
+  const auto before = files();
+  for (const bool paper : {false, true}) {
+    const std::string profile = paper ? "paper" : "default";
+    const std::string other = paper ? "default" : "paper";
+    Values values = paper ? ADAPTIVE : PAPER;
+    if (!paper)
+      values.emplace_back("energy", true);
+    for (const auto& value : values) {
+      std::vector<std::string> options = {path("in.pcd"), path("out.pcd"), "--profile",
+                                          profile, "--" + value.first};
+      if (value.first != "energy")
+        options.push_back(textOf(value.second));
+      const Outcome outcome = segment(options);
+      EXPECT_EQ(outcome.status, 2) << value.first;
+      EXPECT_EQ(outcome.err, "pcl_mrf_plane_segmentation: --" + value.first +
+                                 " has no effect in profile " + profile +
+                                 "; add --profile " + other + "\n");
+    }
+    write("other.ini", values[0].first + "=" + textOf(values[0].second) + "\n");
+    EXPECT_EQ(segment({path("in.pcd"), path("out.pcd"), "--profile", profile,
+                       "--config", path("other.ini")})
+                  .status,
+              2)
+        << "in a configuration file, too";
+    std::filesystem::remove(path("other.ini"));
+  }
+  EXPECT_EQ(files(), before) << "a file was left";
 }
 
 TEST_F(CommandLine, AConfigurationFileIsTheSameAsOptions)
 {
-  std::vector<std::string> options = {"--energy"};
-  std::string file =
-      "# a comment\nenergy = true\nlabel-image = " + path("c.png") + "\n";
-  for (const auto& value : VALUES) {
-    options.insert(options.end(), {"--" + value.first, textOf(value.second)});
-    file += value.first + " = " + textOf(value.second) + "\n";
+  for (const std::string profile : {"default", "paper"}) {
+    std::string file = "# a comment\nprofile = " + profile +
+                       "\nlabel-image = " + path(profile + ".png") + "\n";
+    for (const auto& value : valuesOf(profile))
+      file += value.first + " = " + textOf(value.second) + "\n";
+    write("options.ini", file);
+    const Json by_options = reportOf(optionsOf(profile));
+    const Json by_file = reportOf({"--config", path("options.ini")});
+    EXPECT_EQ(by_file, by_options) << profile;
+    EXPECT_EQ(files().count(profile + ".png"), 1u) << "files can be named there, too";
   }
-  write("options.ini", file);
-  const Json by_options = reportOf(options);
-  const Json by_file = reportOf({"--config", path("options.ini")});
-  EXPECT_EQ(by_file, by_options);
-  EXPECT_EQ(files().count("c.png"), 1u) << "files can be named there, too";
 }
 
 TEST_F(CommandLine, WinsOverTheConfigurationFile)
 {
-  write("options.ini", "beta=0.9\ntau=0.2\n");
-  const Json parameters =
-      reportOf({"--config", path("options.ini"), "--beta", "0.1"})["parameters"];
-  EXPECT_EQ(parameters["beta"], 0.1);
-  EXPECT_EQ(parameters["tau"], 0.2);
+  write("paper.ini", "profile=paper\nbeta=0.9\ntau=0.2\n");
+  const Json paper =
+      reportOf({"--config", path("paper.ini"), "--beta", "0.1"})["parameters"];
+  EXPECT_EQ(paper["beta"], 0.1);
+  EXPECT_EQ(paper["tau"], 0.2);
+  write("default.ini", "profile=paper\nmin-fill=0.9\npasses=5\n");
+  const Json adaptive = reportOf({"--config", path("default.ini"), "--profile",
+                                  "default", "--passes", "1"})["parameters"];
+  EXPECT_EQ(adaptive["profile"], "default");
+  EXPECT_EQ(adaptive["passes"], 1);
+  EXPECT_EQ(adaptive["min_fill"], 0.9);
 }
 
 TEST_F(CommandLine, NoiseIsAPresetMetresOrCoefficients)
 {
+  const auto noiseOf = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"--profile", "paper"});
+    return reportOf(options)["parameters"]["noise"];
+  };
   for (const char* value :
        {"kinect", "structured_light", "time_of_flight", "lidar", "none"})
-    EXPECT_EQ(reportOf({"--noise", value})["parameters"]["noise"],
-              value == std::string("lidar") ? Json("lidar") : Json(value));
-  EXPECT_EQ(reportOf({"--noise", "0.015"})["parameters"]["noise"], 0.015);
-  EXPECT_EQ(reportOf({"--noise=0.01,0,-1e-4"})["parameters"]["noise"],
-            "0.01,0,-0.0001");
+    EXPECT_EQ(noiseOf({"--noise", value}), Json(value));
+  EXPECT_EQ(noiseOf({"--noise", "0.015"}), 0.015);
+  EXPECT_EQ(noiseOf({"--noise=0.01,0,-1e-4"}), "0.01,0,-0.0001");
 }
 
 TEST_F(CommandLine, TakesNegativeNumbers)
 {
-  const Json report = reportOf({"--convergence-tolerance", "-2.5"});
+  const Json report =
+      reportOf({"--profile", "paper", "--convergence-tolerance", "-2.5"});
   EXPECT_EQ(report["parameters"]["convergence_tolerance"], -2.5);
 }
 
 TEST_F(CommandLine, NumbersDoNotDependOnTheLocale)
 {
-  const Json plain = reportOf({"--beta", "0.25"});
-  for (const char* locale : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
-    const Outcome outcome =
-        run(PCL_MRF_PLANES_SEGMENTATION_APP,
-            {path("in.pcd"), "--models", path("m.json"), "--beta", "0.25"},
-            {{"LC_ALL", locale}, {"LANG", locale}});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(Json::parse(read("m.json")), plain);
+  const std::vector<std::vector<std::string>> choices = {
+      {"--profile", "paper", "--beta", "0.25"}, {"--min-fill", "0.625"}};
+  for (const auto& options : choices) {
+    const Json plain = reportOf(options);
+    for (const char* locale : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
+      std::vector<std::string> arguments = {path("in.pcd"), "--models", path("m.json")};
+      arguments.insert(arguments.end(), options.begin(), options.end());
+      const Outcome outcome = run(PCL_MRF_PLANES_SEGMENTATION_APP, arguments,
+                                  {{"LC_ALL", locale}, {"LANG", locale}});
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      EXPECT_EQ(Json::parse(read("m.json")), plain) << locale;
+    }
   }
 }
 
@@ -190,6 +285,7 @@ TEST_F(CommandLine, WrongUseIsStatusTwoAndOneLineThatHelps)
   };
   const std::string in = path("in.pcd");
   const std::string out = path("out.pcd");
+  const std::string paper = "--profile=paper";
   write("unknown.ini", "no-such-option=1\n");
   write("nonsense.ini", "just words\n");
   const std::vector<Case> cases = {
@@ -199,29 +295,41 @@ TEST_F(CommandLine, WrongUseIsStatusTwoAndOneLineThatHelps)
       {{in, out, "--no-such-option"}, "no-such-option"},
       {{in, out, "--tile-wid", "20"}, "tile-wid"},
       {{in, out, "-beta", "1"}, "-beta"},
-      {{in, out, "--beta"}, "beta"},
-      {{in, out, "--beta", "much"}, "'much'"},
-      {{in, out, "--beta", "1,5"}, "'1,5'"},
-      {{in, out, "--beta", "nan"}, "'nan'"},
-      {{in, out, "--beta", "1e999"}, "'1e999'"},
-      {{in, out, "--beta="}, "beta"},
-      {{in, out, "--beta", "-1"}, "--beta is -1; choose a value from 0"},
-      {{in, out, "--beta", "1", "--beta", "2"}, "beta"},
-      {{in, out, "--tile-width", "1"}, "--tile-width is 1; choose a value from 2"},
-      {{in, out, "--tile-width", "10.5"}, "'10.5'"},
-      {{in, out, "--tile-width", "99999999999"}, "whole number"},
-      {{in, out, "--min-valid-share", "1.5"}, "from 0 to 1"},
+      {{in, out, paper, "--beta"}, "beta"},
+      {{in, out, paper, "--beta", "much"}, "'much'"},
+      {{in, out, paper, "--beta", "1,5"}, "'1,5'"},
+      {{in, out, paper, "--beta", "nan"}, "'nan'"},
+      {{in, out, paper, "--beta", "1e999"}, "'1e999'"},
+      {{in, out, paper, "--beta="}, "beta"},
+      {{in, out, paper, "--beta", "-1"}, "--beta is -1; choose a value from 0"},
+      {{in, out, paper, "--beta", "1", "--beta", "2"}, "beta"},
+      {{in, out, paper, "--tile-width", "1"},
+       "--tile-width is 1; choose a value from 2"},
+      {{in, out, paper, "--tile-width", "10.5"}, "'10.5'"},
+      {{in, out, paper, "--tile-width", "99999999999"}, "whole number"},
+      {{in, out, paper, "--min-valid-share", "1.5"}, "from 0 to 1"},
       {{in, out, "--threads", "-1"}, "from 0 to 1024"},
       {{in, out, "--repeat", "0"}, "from 1 to"},
-      {{in, out, "--fit", "best"}, "algebraic, geometric"},
+      {{in, out, paper, "--fit", "best"}, "algebraic, geometric"},
       {{in, out, "--depth", "y"}, "auto, z, range"},
-      {{in, out, "--smoothness", "strong"}, "potts, dissimilarity"},
+      {{in, out, paper, "--smoothness", "strong"}, "potts, dissimilarity"},
       {{in, out, "--profile", "fastest"}, "paper"},
       {{in, out, "--format", "ply"}, "ascii, binary, binary_compressed"},
-      {{in, out, "--noise", "loud"}, "kinect"},
-      {{in, out, "--noise", "1,2"}, "a,b,c"},
-      {{in, out, "--noise", "1,2,3,"}, "a,b,c"},
-      {{in, out, "--noise", "-0.01"}, "--noise"},
+      {{in, out, paper, "--noise", "loud"}, "kinect"},
+      {{in, out, paper, "--noise", "1,2"}, "a,b,c"},
+      {{in, out, paper, "--noise", "1,2,3,"}, "a,b,c"},
+      {{in, out, paper, "--noise", "-0.01"}, "--noise"},
+      {{in, out, "--tile-width", "20"},
+       "--tile-width has no effect in profile default; add --profile paper"},
+      {{in, out, "--energy"}, "--energy has no effect in profile default"},
+      {{in, out, paper, "--cell", "4"},
+       "--cell has no effect in profile paper; add --profile default"},
+      {{in, out, "--cell", "3"}, "--cell is 3; choose 2, 4 or 8"},
+      {{in, out, "--levels", "9"}, "--levels is 9; choose a value from 2 to 8"},
+      {{in, out, "--min-fill", "1.5"}, "--min-fill is 1.5; choose a value from 0 to 1"},
+      {{in, out, "--passes", "1.5"}, "whole number"},
+      {{in, out, "--none-cost", "high"}, "'high'"},
+      {{in, out, "--join-coplanar", "perhaps"}, "true, false"},
       {{in, out, "--config", path("none.ini")}, "none.ini"},
       {{in, out, "--config", path("unknown.ini")}, "no-such-option"},
       {{in, out, "--config", path("nonsense.ini")}, "nonsense.ini"},

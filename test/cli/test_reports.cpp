@@ -67,7 +67,7 @@ protected:
 
 TEST_F(Reports, JsonDescribesThePlanesInTheFrameOfTheCloud)
 {
-  const Json report = models({});
+  const Json report = models({"--profile", "paper"});
   ASSERT_EQ(report["planes"].size(), 2u);
   const Eigen::Vector3f toward_camera(0.0f, 0.0f, -1.0f);
   const Eigen::Vector3f up(0.0f, -1.0f, 0.0f);
@@ -108,9 +108,21 @@ TEST_F(Reports, JsonDescribesThePlanesInTheFrameOfTheCloud)
   EXPECT_FALSE(report.contains("energy")) << "energy only when asked for";
 }
 
+TEST_F(Reports, JsonNamesTheParametersOfTheDefaultProfile)
+{
+  const Json report = models({});
+  EXPECT_EQ(report["planes"].size(), 2u);
+  const Json& parameters = report["parameters"];
+  EXPECT_EQ(parameters["profile"], "default");
+  EXPECT_EQ(parameters["cell"], 4);
+  EXPECT_EQ(parameters["join_coplanar"], true);
+  EXPECT_FALSE(parameters.contains("tile_width")) << "it has no effect";
+  EXPECT_FALSE(report.contains("energy"));
+}
+
 TEST_F(Reports, JsonHoldsEnergiesWhenAskedFor)
 {
-  const Json report = models({"--energy", "--iterations", "3"});
+  const Json report = models({"--profile", "paper", "--energy", "--iterations", "3"});
   ASSERT_EQ(report["energy"].size(), 4u) << "before and after each iteration";
   for (const Json& step : report["energy"])
     EXPECT_NEAR(step["data"].get<double>() + step["smoothness"].get<double>(),
@@ -223,21 +235,34 @@ TEST_F(Reports, NoPlaneIsNoError)
              getField<float>(scene_.cloud, i, "x") +
                  0.01f * static_cast<float>(i * 7919 % 13));
   scene_.write(path("in.pcd"), "binary");
-  const Outcome outcome =
-      segment({path("in.pcd"), "--noise", "1e-4", "--models", path("m.json"),
-               "--label-image", path("l.png"), "--overlay", path("o.png")});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("no plane"), std::string::npos);
-  EXPECT_NE(outcome.out.find("--noise"), std::string::npos) << "says what to try";
-  const Json report = Json::parse(read("m.json"));
-  EXPECT_TRUE(report["planes"].is_array());
-  EXPECT_EQ(report["planes"].size(), 0u);
-  const Png image(path("l.png"));
-  int labelled = 0;
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x)
-      labelled += image.at(x, y) != 0 ? 1 : 0;
-  EXPECT_EQ(labelled, 0);
+  const std::vector<std::vector<std::string>> choices = {
+      {"--profile", "paper", "--noise", "1e-4"},
+      {"--max-growth", "1", "--min-points", "1000000"}};
+  for (const auto& choice : choices) {
+    std::vector<std::string> options = {path("in.pcd"),  "--models",    path("m.json"),
+                                        "--label-image", path("l.png"), "--overlay",
+                                        path("o.png")};
+    options.insert(options.end(), choice.begin(), choice.end());
+    const Outcome outcome = segment(options);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("no plane"), std::string::npos);
+    const bool paper = choice[0] == "--profile";
+    EXPECT_NE(outcome.out.find(paper ? "--noise" : "--min-"), std::string::npos)
+        << "says what to try: " << outcome.out;
+    if (!paper) {
+      EXPECT_EQ(outcome.out.find("--noise"), std::string::npos)
+          << "has no effect in this profile: " << outcome.out;
+    }
+    const Json report = Json::parse(read("m.json"));
+    EXPECT_TRUE(report["planes"].is_array());
+    EXPECT_EQ(report["planes"].size(), 0u);
+    const Png image(path("l.png"));
+    int labelled = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        labelled += image.at(x, y) != 0 ? 1 : 0;
+    EXPECT_EQ(labelled, 0);
+  }
 }
 
 } // namespace pcl_mrf_planes::test

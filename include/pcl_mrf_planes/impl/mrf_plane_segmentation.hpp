@@ -106,8 +106,8 @@ void MRFPlaneSegmentation<PointT>::run(const Fill& fill)
     }
   }
   catch (const std::bad_alloc&) {
-    PCL_ERROR("[pcl::%s::segment] Not enough memory for %zu points; segment a smaller "
-              "cloud or raise the merge threshold.\n",
+    PCL_ERROR("[pcl::%s::segment] Not enough memory for %zu points; segment the cloud "
+              "in parts.\n",
               getClassName(), input_->size());
     result_ = {};
   }
