@@ -40,7 +40,7 @@ const OrganizedPoints& room()
 /// Section V, but merging less, so that the scene gives as many labels as asked for.
 Parameters withLabels(int labels)
 {
-  Parameters parameters;
+  Parameters parameters = Parameters::fromProfile(Profile::PAPER);
   parameters.merge_threshold = 0.01;
   parameters.tile_width = parameters.tile_height = 20;
   parameters.noise_multiplier = 3.0;
