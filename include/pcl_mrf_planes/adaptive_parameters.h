@@ -25,10 +25,10 @@ struct AdaptiveParameters {
   double max_growth = 1.5;        ///< largest growth for a doubling of the side, >= 1
   double long_range = 2.0; ///< sigma of large planes over the largest tile's, where the
                            ///< noise is correlated, >= 1
-  double flatness = 0.012;      ///< a plane may bend by this share of its extent, >= 0,
+  double flatness = 0.012; ///< a plane may bend by this share of its extent, >= 0,
   double max_flatness = 0.0025; ///< but by no more than this, metres, >= 0
   double min_sigma = 2e-5; ///< least sigma at 1 m, growing with distance, metres, > 0
-  int local_reach = 2;            ///< window of the local noise, tiles each way, 0 to 16
+  int local_reach = 2;     ///< window of the local noise, tiles each way, 0 to 16
   double local_percentile = 0.25; ///< of the tiles' rms in that window, 0 to 1
   double max_local = 4.0;         ///< local noise over the cloud's, at most, >= 1
   ///@}
@@ -41,31 +41,33 @@ struct AdaptiveParameters {
   int min_points = 180;          ///< smallest plane, points of independent noise, >= 1:
                                  ///< correlated noise asks for more of them
   double min_width = 3.0;        ///< least spread across the shorter side, sigmas, >= 0
-  bool join_coplanar = true;     ///< parts of one plane behind an occluder share a label
-  double join_tolerance = 2.0;   ///< merge_tolerance of parts that do not touch, > 0
-  double join_gap = 2.0;         ///< widest gap over the side of the smaller part, >= 0
+  bool join_coplanar = true;   ///< parts of one plane behind an occluder share a label
+  double join_tolerance = 2.0; ///< merge_tolerance of parts that do not touch, > 0
+  double join_gap = 2.0;       ///< widest gap over the side of the smaller part, >= 0
   double join_seen = 0.1; ///< share of the way between them that may be off the plane
   bool join_over_occluders = true; ///< what stands in front does not separate parts
   ///@}
 
   /// \name Curved surfaces
   ///@{
-  int fan_parts = 3;        ///< so many small planes in a row are a curved surface; 0: off
+  int fan_parts = 3; ///< so many small planes in a row are a curved surface; 0: off
   double fan_angle = 22.0;  ///< largest crease in such a row, degrees
-  double fan_share = 0.006;  ///< planes above this share of the points are never dropped
+  double fan_share = 0.006; ///< planes above this share of the points are never dropped
   double fan_border = 0.4;  ///< common border over the side of the smaller part, >= 0
   double fan_gap = 2.0;     ///< step across a smooth border, sigmas, >= 0
   double bend_angle = 18.0; ///< turn of the normal that makes a region curved, degrees
-  double bend_share = 0.35; ///< share of its variance that a quadric must explain, 0 to 1
+  double bend_share =
+      0.35; ///< share of its variance that a quadric must explain, 0 to 1
   ///@}
 
   /// \name Random field
   ///@{
-  double none_cost = 4.0;   ///< data cost of "no plane", sigmas, > 0
-  double label_change = 1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
+  double none_cost = 4.0; ///< data cost of "no plane", sigmas, > 0
+  double label_change =
+      1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
   double step_sigmas = 6.0; ///< depth step over which that price falls, sigmas, > 0
   double min_weight = 0.15; ///< share of the price that is left across a step, 0 to 1
-  int passes = 3;            ///< down the image and up again, 0 to 100000
+  int passes = 3;           ///< down the image and up again, 0 to 100000
   int rounds = 2;           ///< of labelling and refitting, 1 to 10
   ///@}
 };
