@@ -23,10 +23,12 @@ namespace pcl {
 /** \brief Segments an organized point cloud into planes by maximum a-posteriori
  * labelling of a Markov random field.
  *
- * Implements "Towards Real-Time Segmentation of 3D Point Cloud Data into Local Planar
- * Regions": tiles of the image are fitted with planes, similar planes are merged, and
- * every point takes the label of one of them by loopy belief propagation. Only geometry
- * is used, never colour.
+ * Tiles of the image are fitted with planes, similar planes are merged, and every point
+ * takes the label of one of them, or none, by loopy belief propagation. Profile PAPER is
+ * "Towards Real-Time Segmentation of 3D Point Cloud Data into Local Planar Regions" as it
+ * stands; profile DEFAULT, which an object starts with, goes the same way made right for
+ * noisy sensors, small planes and scenes that are not all planes. Only geometry is used,
+ * never colour.
  *
  * Drop-in beside pcl::OrganizedMultiPlaneSegmentation: same calls of segment(), no
  * normals needed. Differences: indices are honoured as a region of interest (points

@@ -155,7 +155,7 @@ private:
   /// Potts weight that falls with the depth step, down to a share of itself.
   std::int16_t weight(std::size_t i, std::size_t j) const
   {
-    const float step = (points_.z[i] - points_.z[j]) * per_step_;
+    const float step = (points_.depth(i) - points_.depth(j)) * per_step_;
     const float share = std::max(static_cast<float>(parameters_.min_weight),
                                  1.0f / (1.0f + step * step));
     return units(static_cast<float>(parameters_.label_change) * share);
