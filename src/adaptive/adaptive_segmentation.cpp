@@ -63,12 +63,12 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
 
   // B. Merging planes, on pooled sums
   regions = mergeTouching(regions, pyramid, noise, parameters);
-  if (parameters.join_coplanar && regions.planes.size() <= MOST_PLANES)
-    regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
-  report.planes_after_merging = regions.planes.size();
   if (regions.planes.size() > MOST_PLANES)
     throw std::runtime_error("more than 65000 planes; raise min_points, or segment the "
                              "cloud in parts");
+  if (parameters.join_coplanar)
+    regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
+  report.planes_after_merging = regions.planes.size();
   timer.finish("merging");
 
   // C and D. The random field and its MAP labels; then the planes fitted to them
