@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Borders, and planes of regions that match.
-#include "reference/inputs.h"
+#include "reference/borders.h"
 #include "reference/label_images.h"
-#include "reference/segmentation_score.h"
 
 #include <evaluation/border_agreement.h>
 #include <evaluation/plane_errors.h>

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -264,48 +263,6 @@ inline double shareLabelled(const ScoredImages& images, bool on_planes)
       labelled += images.labels()[i] != 0 ? 1.0 : 0.0;
     }
   return labelled / points; // 0 / 0 is NaN
-}
-
-/** \brief Whether point \a i is next to one of another label, both scored. */
-inline bool isBorder(const LabelVector& image, const LabelVector& truth, int width,
-                     int height, int x, int y)
-{
-  const auto at = [&](int px, int py) {
-    return static_cast<std::size_t>(py * width + px);
-  };
-  for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    const int nx = x + dx;
-    const int ny = y + dy;
-    if (nx < 0 || ny < 0 || nx >= width || ny >= height)
-      continue;
-    if (truth[at(x, y)] != ScoredImages::NOT_SCORED &&
-        truth[at(nx, ny)] != ScoredImages::NOT_SCORED &&
-        image[at(x, y)] != image[at(nx, ny)])
-      return true;
-  }
-  return false;
-}
-
-/** \brief Share of the border points of \a from that have one of \a to at most
- * \a distance columns and rows away; NaN without any. */
-inline double borderShare(const LabelVector& from, const LabelVector& to,
-                          const LabelVector& truth, int width, int height, int distance)
-{
-  double found = 0.0;
-  double points = 0.0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (!isBorder(from, truth, width, height, x, y))
-        continue;
-      points += 1.0;
-      bool near = false;
-      for (int v = 0; v < height; ++v)
-        for (int u = 0; u < width; ++u)
-          near = near || (std::abs(u - x) <= distance && std::abs(v - y) <= distance &&
-                          isBorder(to, truth, width, height, u, v));
-      found += near ? 1.0 : 0.0;
-    }
-  return found / points; // 0 / 0 is NaN
 }
 
 } // namespace pcl_mrf_planes::reference
