@@ -108,11 +108,13 @@ ResultRow meanRow(const std::vector<ResultRow>& sets, const ResultRow& all)
   ResultRow row;
   row.kind = "mean of sets";
   std::vector<ScoreSummary> scores;
+  scores.reserve(sets.size());
   for (const ResultRow& set : sets)
     scores.push_back(set.scores);
   row.scores = meanOfSets(scores);
   for (std::size_t k = 0; k < all.borders.size(); ++k) {
     std::vector<BorderSummary> parts;
+    parts.reserve(sets.size());
     for (const ResultRow& set : sets)
       parts.push_back(set.borders[k]);
     row.borders.push_back(meanBorder(parts));

@@ -11,10 +11,10 @@ namespace pcl_mrf_planes::evaluation {
 
 namespace {
 
-constexpr std::size_t CELL = 9;
-constexpr double MILLIMETRES = 1e3; // of a metre
+constexpr std::size_t LEAST_WIDTH = 8; // of a column of numbers
+constexpr double MILLIMETRES = 1e3;    // of a metre
 
-/// Collects lines of cells and prints them with the first column as wide as it needs.
+/// Collects lines of cells and prints them in columns as wide as they need.
 class Table {
 public:
   explicit Table(std::vector<std::string> header)
@@ -28,18 +28,24 @@ public:
   }
   void print(std::ostream& out) const
   {
-    std::size_t width = 0;
-    for (const auto& line : lines_)
-      width = std::max(width, line[0].size());
     for (const auto& line : lines_) {
-      out << line[0] << std::string(width - line[0].size(), ' ');
+      out << line[0] << std::string(width(0) - line[0].size(), ' ');
       for (std::size_t i = 1; i < line.size(); ++i)
-        out << ' ' << apps::cell(line[i], CELL - 1);
+        out << ' ' << apps::cell(line[i], std::max(LEAST_WIDTH, width(i)));
       out << '\n';
     }
   }
 
 private:
+  /// Of the widest cell of a column.
+  std::size_t width(std::size_t column) const
+  {
+    std::size_t widest = 0;
+    for (const auto& line : lines_)
+      widest = std::max(widest, line[column].size());
+    return widest;
+  }
+
   std::vector<std::vector<std::string>> lines_;
 };
 
@@ -60,7 +66,7 @@ void printScores(std::ostream& out, const std::vector<ResultRow>& rows)
 
 void printBorders(std::ostream& out, const std::vector<ResultRow>& rows)
 {
-  Table table({"borders", "points", "precis.", "recall", "f"});
+  Table table({"borders", "points", "precision", "recall", "f"});
   for (const ResultRow& row : rows)
     for (const BorderSummary& border : row.borders) {
       table.line(row.title());

@@ -57,7 +57,7 @@ std::string findLabels(const fs::path& place)
 
 std::string findCloud(const fs::path& place)
 {
-  const std::string file = place.string() + ".pcd";
+  std::string file = place.string() + ".pcd";
   std::error_code error;
   if (!fs::exists(file, error))
     throw std::runtime_error("the cloud '" + file +
