@@ -1,89 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The evaluation as a program: files, folders, outputs and every error.
-#include "cli_test.h"
-#include "label_files.h"
-#include "reference/label_images.h"
-#include "two_planes.h"
-
-#include <nlohmann/json.hpp>
-#include <pcl/io/png_io.h>
+// The evaluation as a program: files, folders, options and outputs.
+#include "evaluation_test.h"
 
 #include <algorithm>
 #include <sstream>
 
 namespace pcl_mrf_planes::test {
 
-namespace {
-
-using evaluation::LabelImage;
 using reference::drawn;
 using Json = nlohmann::json;
-
-const LabelImage TRUTH = drawn({"11112222", "11112222", "33330000"});
-const LabelImage MERGED = drawn({"11111111", "11111111", "33330000"});
-
-} // namespace
-
-class EvaluationApp : public CliTest {
-protected:
-  Outcome evaluate(const std::vector<std::string>& arguments) const
-  {
-    return run(PCL_MRF_PLANES_EVALUATION_APP, arguments);
-  }
-
-  /// What --json says, the run having gone well.
-  Json report(std::vector<std::string> arguments) const
-  {
-    arguments.insert(arguments.end(), {"--quiet", "--json", path("report.json")});
-    const Outcome outcome = evaluate(arguments);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(outcome.out + outcome.err, "");
-    return Json::parse(read("report.json"), nullptr, false);
-  }
-
-  /// Two sets of two frames and one: c is perfect, a merges planes, b has no result.
-  void writeSets() const
-  {
-    writeLabels(path("truth/one/a.gt.png"), TRUTH);
-    writeLabels(path("truth/one/b.pgt.png"), TRUTH);
-    writeLabels(path("truth/two/deep/c.faces.png"), TRUTH);
-    writeLabels(path("result/one/a.png"), MERGED);
-    writeLabels(path("result/two/deep/c.labels.png"), TRUTH);
-  }
-
-  /// The run fails with one line that holds \a message, and leaves no trace.
-  void expectFailure(const std::vector<std::string>& arguments, int status,
-                     const std::string& message) const
-  {
-    const auto before = files();
-    const Outcome outcome = evaluate(arguments);
-    EXPECT_EQ(outcome.status, status) << message << "\n" << outcome.err;
-    EXPECT_EQ(outcome.err.find("pcl_mrf_plane_evaluation: "), 0u) << outcome.err;
-    EXPECT_NE(outcome.err.find(message), std::string::npos)
-        << "expected '" << message << "' in: " << outcome.err;
-    EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1)
-        << "more than one line: " << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(files(), before) << message << ": a file was left";
-  }
-
-  /// A result that cannot be scored, beside a good truth; and in the truth's place.
-  void expectBadFile(const std::string& name, const std::string& message) const
-  {
-    SCOPED_TRACE(name);
-    writeLabels(path("good.gt.png"), TRUTH);
-    const std::string good = path("good.gt.png");
-    const std::vector<std::string> outputs = {"--json", path("o.json"), "--csv",
-                                              path("o.csv")};
-    for (const auto& pair : {std::vector<std::string>{good, path(name)},
-                             std::vector<std::string>{path(name), good}}) {
-      std::vector<std::string> arguments = pair;
-      arguments.insert(arguments.end(), outputs.begin(), outputs.end());
-      expectFailure(arguments, 1, message);
-      expectFailure(arguments, 1, name);
-    }
-  }
-};
 
 TEST_F(EvaluationApp, PairsOfFiles)
 {
@@ -241,96 +166,6 @@ TEST_F(EvaluationApp, HelpAndVersion)
                              "--curve", "--each", "--csv", "--json", "Exit status"})
       EXPECT_NE(evaluate({option}).out.find(text), std::string::npos) << text;
   EXPECT_EQ(evaluate({"--version"}).out.find("pcl_mrf_plane_evaluation "), 0u);
-}
-
-TEST_F(EvaluationApp, WrongUse)
-{
-  writeLabels(path("a.png"), TRUTH);
-  const std::string a = path("a.png");
-  expectFailure({}, 2, "nothing to score");
-  expectFailure({a}, 2, "has no partner");
-  expectFailure({a, a, a}, 2, "has no partner");
-  expectFailure({a, a, "--truth", path("")}, 2, "both files and folders");
-  expectFailure({"--truth", path("")}, 2, "--truth needs --labels");
-  expectFailure({"--labels", path("")}, 2, "--labels needs --truth");
-  expectFailure({a, a, "--no-such-option"}, 2, "no-such-option");
-  expectFailure({a, a, "-x"}, 2, "unknown option '-x'");
-  expectFailure({a, a, "--json", ""}, 2, "--json");
-  for (const char* tolerance : {"0.5", "1.1", "nan", "high", "0.8x"})
-    expectFailure({a, a, "--tolerance", tolerance}, 2, tolerance);
-  for (const char* count : {"-1", "0.5", "many"})
-    expectFailure({a, a, "--min-points", count}, 2, count);
-  expectFailure({a, a, "--border", "-1"}, 2, "whole number from 0");
-  expectFailure({a, a, "--json", path("o"), "--csv", path("o")}, 2, "the same file");
-  expectFailure({a, a, "--json", a}, 2, "would overwrite");
-}
-
-TEST_F(EvaluationApp, FoldersThatDoNotServe)
-{
-  writeSets();
-  writeLabels(path("a.png"), TRUTH);
-  std::filesystem::create_directories(path("empty"));
-  expectFailure({"--truth", path("none"), "--labels", path("result")}, 1,
-                "none' does not exist");
-  expectFailure({"--truth", path("truth"), "--labels", path("none")}, 1,
-                "none' does not exist");
-  expectFailure({"--truth", path("a.png"), "--labels", path("result")}, 1,
-                "is not a folder");
-  expectFailure({"--truth", path("empty"), "--labels", path("result")}, 1,
-                "has no file that ends in gt.png or faces.png or pgt.png");
-  expectFailure(
-      {"--truth", path("truth"), "--labels", path("result"), "--cloud", path("none")},
-      1, "none' does not exist");
-  expectFailure({path("a.png"), path("empty")}, 1, "is a folder");
-  expectFailure({path("a.png"), path("a.png"), "--csv", path("none/o.csv")}, 1,
-                "there is no folder");
-}
-
-TEST_F(EvaluationApp, FilesThatAreNoLabelImages)
-{
-  write("text.png", "This is not a picture.");
-  write("empty.png", "");
-  const std::vector<unsigned char> bytes(3 * 24, 1);
-  pcl::io::saveCharPNGFile(path("eight.png"), bytes.data(), 8, 3, 1);
-  pcl::io::saveRgbPNGFile(path("colour.png"), bytes.data(), 8, 3);
-  writeLabels(path("narrow.png"), drawn({"1111"}));
-  expectBadFile("none.png", "does not exist");
-  expectBadFile("text.png", "is not a PNG file");
-  expectBadFile("empty.png", "is not a PNG file");
-  expectBadFile("eight.png", "has 8 bits a point");
-  expectBadFile("colour.png", "in colour");
-  expectBadFile("narrow.png", "4 x 1");
-
-  writeLabels(path("whole.png"), TRUTH);
-  const std::string whole = read("whole.png");
-  for (std::size_t length = 8; length < whole.size() - 4; length += 5) {
-    write("cut.png", whole.substr(0, length));
-    expectBadFile("cut.png", "truncated or damaged");
-  }
-  std::string wrong = whole;
-  wrong[whole.find("IDAT") + 8] ^= 0x40;
-  write("wrong.png", wrong);
-  expectBadFile("wrong.png", "truncated or damaged");
-}
-
-TEST_F(EvaluationApp, CloudsThatHaveNoLabels)
-{
-  writeLabelCloud(path("labels.pcd"), TRUTH);
-  const std::string whole = read("labels.pcd");
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = whole;
-    return text.replace(text.find(from), from.size(), to);
-  };
-  write("other.pcd", with("label", "ladle"));
-  write("float.pcd", with("F F F U", "F F F F"));
-  std::string large = whole;
-  large[large.size() - 2] = 1; // of the last label, the lowest byte first
-  write("large.pcd", large);
-  write("cut.pcd", whole.substr(0, whole.size() - 10));
-  expectBadFile("other.pcd", "has no field 'label'");
-  expectBadFile("float.pcd", "no whole number");
-  expectBadFile("large.pcd", "has the label 65536");
-  expectBadFile("cut.pcd", "truncated");
 }
 
 TEST_F(EvaluationApp, ScoresTheSegmentation)
