@@ -145,11 +145,28 @@ namespace {
 std::vector<ParameterOption> adaptiveOptions()
 {
   using A = AdaptiveParameters;
+  using P = Parameters;
   return {
       integer("levels", &A::levels, "COUNT", "tile sizes, each twice the one before"),
+      integer("smallest-level", &A::smallest_level, "COUNT",
+              "tile sizes that are left out, from 4 points on"),
       real("tile-tolerance", &A::tile_tolerance, "SIGMAS",
            "rms distance that a tile may have"),
       real("min-fill", &A::min_fill, "SHARE", "of valid points that a tile needs"),
+      {"noise", "auto|NAME|METRES|A,B,C",
+       "sensor noise sigma(z): auto, estimated from the cloud; " +
+           join(NoiseModel::names()) +
+           "; the same number of metres at every depth; or the coefficients of a + b z "
+           "+ "
+           "c z^2",
+       [](P& p, const std::string& text) {
+         p.adaptive.estimate_noise = text == "auto";
+         if (text != "auto")
+           p.noise = parseNoise("noise", text);
+       },
+       [](const P& p) {
+         return p.adaptive.estimate_noise ? std::string("auto") : printNoise(p.noise);
+       }},
       real("noise-percentile", &A::noise_percentile, "SHARE",
            "percentile of the tiles' rms distances that is the cloud's noise"),
       real("growth-percentile", &A::growth_percentile, "SHARE",
@@ -174,8 +191,9 @@ std::vector<ParameterOption> adaptiveOptions()
            "the same for what is labelled"),
       integer("min-points", &A::min_points, "POINTS",
               "smallest plane; more are asked for where noise is correlated"),
-      real("min-width", &A::min_width, "SIGMAS",
-           "least spread of a plane across its shorter side"),
+      real("min-evidence", &A::min_evidence, "NATS",
+           "points times ln(width / rms distance) that a plane needs; larger keeps "
+           "fewer small ones"),
       choice("join-coplanar", &A::join_coplanar, SWITCH,
              "whether parts of one plane behind an occluder share a label"),
       real("join-tolerance", &A::join_tolerance, "SIGMAS",
@@ -198,6 +216,8 @@ std::vector<ParameterOption> adaptiveOptions()
            "turn of the normal that makes a region curved"),
       real("bend-share", &A::bend_share, "SHARE",
            "of its variance that such a bend must explain"),
+      integer("support-reach", &A::support_reach, "8 POINTS",
+              "how far from its tiles a plane competes"),
       real("none-cost", &A::none_cost, "SIGMAS",
            "cost of a point on no plane; larger labels more"),
       real("label-change", &A::label_change, "SIGMAS",
@@ -250,16 +270,18 @@ std::vector<ParameterOption> paperOptions()
 std::vector<ParameterOption> commonOptions()
 {
   using P = Parameters;
-  return {choice("depth", &P::depth_measure, DEPTHS,
-                 "what depth is: z of the sensor (cameras), range (rotating lidars)"),
-          integer("min-inliers", &P::min_inliers, "POINTS",
-                  "planes with fewer points are dropped"),
-          {"threads", "COUNT", "threads to use, 0 for all cores",
-           [](P& p, const std::string& text) {
-             p.number_of_threads =
-                 static_cast<unsigned int>(parseInteger("threads", text, 0, 1024));
-           },
-           [](const P& p) { return std::to_string(p.number_of_threads); }}};
+  return {
+      choice("depth", &P::depth_measure, DEPTHS,
+             "what depth is: z of the sensor (cameras), range (rotating lidars)"),
+      integer("min-inliers", &P::min_inliers, "POINTS",
+              "planes with fewer points are dropped"),
+      real("min-area", &P::min_area, "M2", "planes with a smaller area are dropped"),
+      {"threads", "COUNT", "threads to use, 0 for all cores",
+       [](P& p, const std::string& text) {
+         p.number_of_threads =
+             static_cast<unsigned int>(parseInteger("threads", text, 0, 1024));
+       },
+       [](const P& p) { return std::to_string(p.number_of_threads); }}};
 }
 
 } // namespace

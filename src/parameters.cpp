@@ -35,6 +35,7 @@ void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
 {
   constexpr double SMALLEST = 1e-6;
   range.check("levels", p.levels, 2, 8);
+  range.check("smallest_level", p.smallest_level, 0, p.levels - 1);
   range.check("tile_tolerance", p.tile_tolerance, SMALLEST, LARGEST);
   range.check("min_fill", p.min_fill, 0, 1);
   range.check("noise_percentile", p.noise_percentile, 0, 1);
@@ -51,7 +52,7 @@ void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
   range.check("region_tolerance", p.region_tolerance, SMALLEST, LARGEST);
   range.check("accept_tolerance", p.accept_tolerance, SMALLEST, LARGEST);
   range.check("min_points", p.min_points, 1, 1e9);
-  range.check("min_width", p.min_width, 0, LARGEST);
+  range.check("min_evidence", p.min_evidence, 0, 1e9);
   range.check("join_tolerance", p.join_tolerance, SMALLEST, LARGEST);
   range.check("join_gap", p.join_gap, 0, 1e4);
   range.check("join_seen", p.join_seen, 0, 1);
@@ -62,6 +63,7 @@ void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
   range.check("fan_gap", p.fan_gap, 0, LARGEST);
   range.check("bend_angle", p.bend_angle, 0, 360);
   range.check("bend_share", p.bend_share, 0, 1);
+  range.check("support_reach", p.support_reach, 1, 512);
   range.check("none_cost", p.none_cost, SMALLEST, 1e3);
   range.check("label_change", p.label_change, 0, 1e3);
   range.check("step_sigmas", p.step_sigmas, SMALLEST, LARGEST);
@@ -95,6 +97,7 @@ std::string Parameters::validate() const
   range.check("iterations", iterations, 0, 100000);
   range.check("convergence_tolerance", convergence_tolerance, -LARGEST, LARGEST);
   range.check("min_inliers", min_inliers, 0, 1e9);
+  range.check("min_area", min_area, 0, LARGEST);
   range.check("number_of_threads", number_of_threads, 0, 1024);
   checkAdaptive(adaptive, range);
   if (!range.message().empty())
@@ -103,6 +106,11 @@ std::string Parameters::validate() const
   if (std::isnan(probe) || std::isnan(noise.sigma(10.0)) || probe <= 0.0)
     return "noise gives no positive standard deviation at 1 m; choose a preset or "
            "coefficients a, b, c with a + b + c > 0";
+  if (method == Method::ADAPTIVE && !adaptive.estimate_noise &&
+      !(noise.sigma(1.0) < LARGEST && noise.sigma(10.0) < LARGEST))
+    return "noise has no limit, so that every plane would fit; choose a preset other "
+           "than "
+           "none, or estimate the noise from the cloud";
   return {};
 }
 

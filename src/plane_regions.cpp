@@ -98,7 +98,7 @@ auto rank(const PlaneRegion& region)
 std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<Plane>& planes,
                                        const std::vector<std::uint16_t>& labels,
-                                       int min_points)
+                                       int min_points, double min_area)
 {
   const LabelRuns image =
       findRuns(labelsOfValid(points, labels), points.width, NO_PLANE);
@@ -110,7 +110,8 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
 
   std::vector<PlaneRegion> regions;
   for (std::size_t l = 0; l < planes.size(); ++l)
-    if (counts[l] > 0 && counts[l] >= static_cast<std::size_t>(std::max(min_points, 0)))
+    if (counts[l] > 0 && areas[l] >= min_area &&
+        counts[l] >= static_cast<std::size_t>(std::max(min_points, 0)))
       regions.push_back(makeRegion(planes[l], l, areas[l], scatter[l]));
   fillIndices(image, counts, regions);
   std::sort(

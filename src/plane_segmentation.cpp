@@ -113,7 +113,8 @@ PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
     map_labels = inferLabels(field, parameters, report);
     timer.finish("propagation");
 
-    result.regions = gatherRegions(points, planes, map_labels, parameters.min_inliers);
+    result.regions = gatherRegions(points, planes, map_labels, parameters.min_inliers,
+                                   parameters.min_area);
   }
   result.labels = regionLabels(points, result.regions);
   timer.finish("regions");

@@ -57,7 +57,8 @@ private:
     return planes_[label].normal.dot(from.cross(to));
   }
 
-  void addStrip(const LabelRun& upper, const LabelRun& lower, std::vector<Strip>& strips)
+  void addStrip(const LabelRun& upper, const LabelRun& lower,
+                std::vector<Strip>& strips)
   {
     if (upper.label != lower.label)
       return;
@@ -83,7 +84,8 @@ private:
   }
 
   /// Corners clockwise in the image.
-  double triangle(std::size_t a, std::size_t b, std::size_t c, std::uint16_t label) const
+  double triangle(std::size_t a, std::size_t b, std::size_t c,
+                  std::uint16_t label) const
   {
     return edge(a, b, label) + edge(b, c, label) + edge(c, a, label);
   }

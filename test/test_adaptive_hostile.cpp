@@ -107,12 +107,10 @@ std::map<std::string, AdaptiveParameters> extremeParameters()
 {
   std::map<std::string, AdaptiveParameters> all;
   all["as they are"] = {};
-  for (const int cell : {2, 8}) {
-    all["cells of " + std::to_string(cell)].cell = cell;
-    AdaptiveParameters& deep = all["8 levels on cells of " + std::to_string(cell)];
-    deep.cell = cell;
-    deep.levels = 8;
-  }
+  all["8 levels"].levels = 8;
+  all["tiles of 32 points only"].smallest_level = 3;
+  all["support from afar"].support_reach = 512;
+  all["noise as stated"].estimate_noise = false;
   all["2 levels"].levels = 2;
   all["no passes"].passes = 0;
   all["30 passes"].passes = 30;
@@ -127,7 +125,7 @@ std::map<std::string, AdaptiveParameters> extremeParameters()
   greedy.accept_tolerance = greedy.join_tolerance = 1e6;
   greedy.min_fill = 0;
   greedy.min_points = 1;
-  greedy.min_width = 0;
+  greedy.min_evidence = 0;
   greedy.join_gap = 1e4;
   greedy.join_seen = 1;
   greedy.local_reach = 16;
@@ -138,10 +136,9 @@ std::map<std::string, AdaptiveParameters> extremeParameters()
   choosy.min_points = 1;
   choosy.local_reach = 0;
   AdaptiveParameters& shreds = all["tiles never merge"];
-  shreds.cell = 2;
   shreds.merge_tolerance = 1e-6;
   shreds.min_points = 1;
-  shreds.min_width = 0;
+  shreds.min_evidence = 0;
   shreds.fan_parts = 0;
   for (const double cost : {1e-6, 1e3})
     for (const double change : {0.0, 1e3}) {
@@ -160,7 +157,7 @@ std::map<std::string, AdaptiveParameters> extremeParameters()
   most.noise_percentile = most.growth_percentile = most.local_percentile = 1;
   most.flatness = most.max_flatness = most.min_sigma = 1e6;
   most.max_growth = most.long_range = most.max_local = 1e6;
-  most.step_sigmas = most.min_width = 1e6;
+  most.step_sigmas = most.min_evidence = 1e6;
   AdaptiveParameters& no_points = all["no plane is large enough"];
   no_points.min_points = 1000000000;
   no_points.max_growth = no_points.long_range = 1e6;

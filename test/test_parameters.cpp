@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         real("region_tolerance", &AdaptiveParameters::region_tolerance, 1e-6, 1e6),
         real("accept_tolerance", &AdaptiveParameters::accept_tolerance, 1e-6, 1e6),
         whole("min_points", &AdaptiveParameters::min_points, 1, 1e9),
-        real("min_width", &AdaptiveParameters::min_width, 0, 1e6),
+        real("min_evidence", &AdaptiveParameters::min_evidence, 0, 1e9),
         real("join_tolerance", &AdaptiveParameters::join_tolerance, 1e-6, 1e6),
         real("join_gap", &AdaptiveParameters::join_gap, 0, 1e4),
         real("join_seen", &AdaptiveParameters::join_seen, 0, 1),
@@ -144,6 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
         real("fan_gap", &AdaptiveParameters::fan_gap, 0, 1e6),
         real("bend_angle", &AdaptiveParameters::bend_angle, 0, 360),
         real("bend_share", &AdaptiveParameters::bend_share, 0, 1),
+        whole("support_reach", &AdaptiveParameters::support_reach, 1, 512),
         real("none_cost", &AdaptiveParameters::none_cost, 1e-6, 1e3),
         real("label_change", &AdaptiveParameters::label_change, 0, 1e3),
         real("step_sigmas", &AdaptiveParameters::step_sigmas, 1e-6, 1e6),
@@ -151,19 +152,30 @@ INSTANTIATE_TEST_SUITE_P(
         whole("passes", &AdaptiveParameters::passes, 0, 100000),
         whole("rounds", &AdaptiveParameters::rounds, 1, 10)));
 
-TEST(ParametersTest, CellsAreTwoFourOrEightPoints)
+TEST(ParametersTest, TheSmallestTilesAreNoneOfTheLargest)
 {
   Parameters p;
-  for (const int good : {2, 4, 8}) {
-    p.adaptive.cell = good;
-    EXPECT_EQ(p.validate(), "") << "a cell of " << good << " points is a choice";
+  p.adaptive.levels = 3;
+  for (const int good : {0, 1, 2}) {
+    p.adaptive.smallest_level = good;
+    EXPECT_EQ(p.validate(), "") << good << " of 3 sizes left out";
   }
-  for (const int bad : {-4, 0, 1, 3, 5, 6, 7, 9, 16}) {
-    p.adaptive.cell = bad;
-    EXPECT_EQ(p.validate().find("cell is " + std::to_string(bad)), 0U)
-        << "a cell of " << bad << " points must be refused by name, got '"
-        << p.validate() << "'";
+  for (const int bad : {-1, 3, 8}) {
+    p.adaptive.smallest_level = bad;
+    EXPECT_EQ(p.validate().find("smallest_level is " + std::to_string(bad)), 0U)
+        << "no size is left, got '" << p.validate() << "'";
   }
+}
+
+TEST(ParametersTest, ANoiseWithoutLimitIsForThePaperOnly)
+{
+  Parameters p;
+  p.noise = NoiseModel::none();
+  EXPECT_EQ(p.validate(), "") << "the default profile estimates the noise";
+  p.adaptive.estimate_noise = false;
+  EXPECT_EQ(p.validate().find("noise has no limit"), 0U) << p.validate();
+  p.method = Method::PAPER;
+  EXPECT_EQ(p.validate(), "") << "the paper keeps every tile then";
 }
 
 TEST(ParametersTest, ProfilesNameTheMethodAndShareTheOtherValues)

@@ -131,5 +131,70 @@ TEST(PlaneRegionsTest, SmallRegionsAreDropped)
   EXPECT_TRUE(gatherRegions(points, planes, labels, 8).empty());
 }
 
+TEST(PlaneRegionsTest, RegionsOfLittleAreaAreDropped)
+{
+  const auto frame = rectangle(0.0, 1.2, 1.0, scenes::SensorNoise::none());
+  const Plane plane = {frame.planes[0].head<3>(), frame.planes[0][3]};
+  const std::vector<std::uint16_t> labels(frame.size(), 0);
+  const OrganizedPoints points = reference::toPoints(frame);
+  EXPECT_EQ(gatherRegions(points, {plane}, labels, 0, 1.15).size(), 1U);
+  EXPECT_TRUE(gatherRegions(points, {plane}, labels, 0, 1.25).empty()) << "1.2 m^2";
+}
+
+/// Face by face: whole squares and triangles of neighbouring points.
+double areaFaceByFace(const OrganizedPoints& points, const Plane& plane,
+                      const std::vector<std::uint16_t>& labels, std::uint16_t label)
+{
+  const auto w = static_cast<std::size_t>(points.width);
+  const auto at = [&](std::size_t i) {
+    return Eigen::Vector3d(points.x[i], points.y[i], points.z[i]);
+  };
+  double twice = 0.0;
+  for (std::size_t a = 0; a + w + 1 < points.size(); ++a) {
+    if (a % w + 1 == w)
+      continue;
+    std::vector<Eigen::Vector3d> loop; // clockwise
+    for (const std::size_t i : {a, a + 1, a + w + 1, a + w})
+      if (points.valid[i] != 0 && labels[i] == label)
+        loop.push_back(at(i));
+    if (loop.size() >= 3)
+      for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+        twice += plane.normal.dot((loop[k] - loop[0]).cross(loop[k + 1] - loop[0]));
+  }
+  return std::abs(twice) / 2;
+}
+
+// The area is added up along borders; face by face must give the same, whatever the shape.
+TEST(PlaneRegionsTest, AreasOfRaggedRegionsAreThoseOfTheirFaces)
+{
+  scenes::Random random(8);
+  for (int k = 0; k < 60; ++k) {
+    const int width = random.integer(1, 24);
+    const int height = random.integer(1, 20);
+    OrganizedPoints points;
+    points.resize(width, height);
+    std::vector<std::uint16_t> labels;
+    const double same = random.uniform(0.3, 0.99); // as the point before
+    for (int i = 0; i < width * height; ++i) {
+      if (!random.chance(0.05))
+        points.set(static_cast<std::size_t>(i),
+                   static_cast<float>(i % width + random.uniform(-0.3, 0.3)),
+                   static_cast<float>(i / width + random.uniform(-0.3, 0.3)), 20.0f);
+      labels.push_back(i > 0 && random.chance(same)
+                           ? labels.back()
+                           : static_cast<std::uint16_t>(random.integer(0, 2)));
+    }
+    const std::vector<Plane> planes = {reference::randomPlane(random),
+                                       reference::randomPlane(random),
+                                       reference::randomPlane(random)};
+    for (const PlaneRegion& region : gatherRegions(points, planes, labels, 0)) {
+      const auto label = static_cast<std::uint16_t>(region.label);
+      EXPECT_NEAR(region.area, areaFaceByFace(points, planes[label], labels, label),
+                  1e-9)
+          << width << "x" << height << ", label " << label << ", image " << k;
+    }
+  }
+}
+
 } // namespace
 } // namespace pcl_mrf_planes

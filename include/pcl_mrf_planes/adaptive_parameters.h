@@ -13,19 +13,21 @@ struct AdaptiveParameters {
   /// \name Tiles of several sizes
   ///@{
   int levels = 4;              ///< tile sides 4, 8, 16, ... points; 2 to 8
+  int smallest_level = 0;      ///< tiles below this level are not used; 0 to levels - 1
   double tile_tolerance = 2.0; ///< rms distance that a tile may have, sigmas, > 0
   double min_fill = 0.75;      ///< share of valid points that a tile needs, 0 to 1
   ///@}
 
   /// \name Noise
   ///@{
+  bool estimate_noise = true;     ///< sigma from the cloud itself; false: from noise
   double noise_percentile = 0.5;  ///< of the tiles' rms distances at one depth, 0 to 1
   double growth_percentile = 0.4; ///< of rms(tile) / rms(its quarters), 0 to 1
   double max_growth = 1.5;        ///< largest growth for a doubling of the side, >= 1
   double long_range = 2.0; ///< sigma of large planes over the largest tile's, where the
                            ///< noise is correlated, >= 1
   double flatness = 0.012; ///< a plane may bend by this share of its extent, >= 0,
-  double max_flatness = 0.0025; ///< but by no more than this, metres, >= 0
+  double max_flatness = 0.002; ///< but by no more than this, metres, >= 0
   double min_sigma = 2e-5; ///< least sigma at 1 m, growing with distance, metres, > 0
   int local_reach = 2;     ///< window of the local noise, tiles each way, 0 to 16
   double local_percentile = 0.25; ///< of the tiles' rms in that window, 0 to 1
@@ -34,12 +36,15 @@ struct AdaptiveParameters {
 
   /// \name Merging
   ///@{
-  double merge_tolerance = 3.0;  ///< deviation of the smaller part, sigmas, > 0
+  double merge_tolerance = 4.0;  ///< deviation of the smaller part, sigmas, > 0
   double region_tolerance = 2.0; ///< rms distance that a plane may have, sigmas, > 0
   double accept_tolerance = 2.0; ///< the same after labelling, sigmas, > 0
-  int min_points = 180;          ///< smallest plane, points of independent noise, >= 1:
-                                 ///< correlated noise asks for more of them
-  double min_width = 3.0;        ///< least spread across the shorter side, sigmas, >= 0
+  int min_points =
+      60; ///< smallest plane and smallest part of one, points of independent
+          ///< noise, >= 1: correlated noise asks for more of them
+  /// Points of independent noise times ln(width / rms distance) that a plane needs: what
+  /// its equation saves in the description of its points. >= 0
+  double min_evidence = 500.0;
   bool join_coplanar = true;   ///< parts of one plane behind an occluder share a label
   double join_tolerance = 2.0; ///< merge_tolerance of parts that do not touch, > 0
   double join_gap = 2.0;       ///< widest gap over the side of the smaller part, >= 0
@@ -49,19 +54,21 @@ struct AdaptiveParameters {
 
   /// \name Curved surfaces
   ///@{
-  int fan_parts = 3; ///< so many small planes in a row are a curved surface; 0: off
-  double fan_angle = 22.0;  ///< largest crease in such a row, degrees
+  int fan_parts = 2; ///< so many small planes in a row are a curved surface; 0: off
+  double fan_angle = 24.0;  ///< largest crease in such a row, degrees
   double fan_share = 0.006; ///< planes above this share of the points are never dropped
   double fan_border = 0.4;  ///< common border over the side of the smaller part, >= 0
-  double fan_gap = 2.0;     ///< step across a smooth border, sigmas, >= 0
-  double bend_angle = 18.0; ///< turn of the normal that makes a region curved, degrees
+  double fan_gap = 3.0;     ///< step across a smooth border, sigmas, >= 0
+  double bend_angle = 18.0; ///< turn of the normal that makes a region curved, degrees;
+                            ///< 360: off
   double bend_share =
       0.35; ///< share of its variance that a quadric must explain, 0 to 1
   ///@}
 
   /// \name Random field
   ///@{
-  double none_cost = 4.0; ///< data cost of "no plane", sigmas, > 0
+  int support_reach = 2; ///< a plane competes so far from its tiles, 8 points, 1 to 512
+  double none_cost = 3.0; ///< data cost of "no plane", sigmas, > 0
   double label_change =
       1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
   double step_sigmas = 6.0; ///< depth step over which that price falls, sigmas, > 0

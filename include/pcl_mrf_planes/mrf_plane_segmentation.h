@@ -105,8 +105,13 @@ public:
   void setPlaneFit(PlaneFit fit) { parameters_.fit = fit; }
   PlaneFit getPlaneFit() const { return parameters_.fit; }
 
-  /** \brief Sensor noise sigma(z) that a tile's error is held against. */
-  void setNoiseModel(const NoiseModel& noise) { parameters_.noise = noise; }
+  /** \brief Sensor noise sigma(z) that distances are held against; the default profile
+   * estimates it from the cloud unless it is set. */
+  void setNoiseModel(const NoiseModel& noise)
+  {
+    parameters_.noise = noise;
+    parameters_.adaptive.estimate_noise = false;
+  }
   const NoiseModel& getNoiseModel() const { return parameters_.noise; }
 
   /** \brief How many sigma a tile's root mean square distance may reach. */
@@ -170,6 +175,14 @@ public:
   /** \brief Planes with fewer points than this are dropped. */
   void setMinInliers(int min_inliers) { parameters_.min_inliers = min_inliers; }
   int getMinInliers() const { return parameters_.min_inliers; }
+
+  /** \brief Planes with a smaller area than this, in square metres, are dropped. */
+  void setMinArea(double square_metres) { parameters_.min_area = square_metres; }
+  double getMinArea() const { return parameters_.min_area; }
+
+  /** \brief Default profile: whether coplanar parts that do not touch share a label. */
+  void setJoinCoplanar(bool join) { parameters_.adaptive.join_coplanar = join; }
+  bool getJoinCoplanar() const { return parameters_.adaptive.join_coplanar; }
 
   /** \brief Threads to use; 0: as many as the machine has cores. */
   void setNumberOfThreads(unsigned int threads = 0)

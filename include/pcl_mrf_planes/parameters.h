@@ -49,8 +49,8 @@ enum class Profile {
 struct Parameters {
   Method method = Method::ADAPTIVE;
 
-  /** \brief Values of Method::ADAPTIVE, which takes of those below depth_measure and
-   * min_inliers only. */
+  /** \brief Values of Method::ADAPTIVE, which takes of those below depth_measure,
+   * min_inliers and min_area, and noise if it is not to estimate it. */
   AdaptiveParameters adaptive;
 
   /// \name Planar surface detection, section IV-A
@@ -92,6 +92,8 @@ struct Parameters {
   /// \name Output
   ///@{
   int min_inliers = 0; ///< planes with fewer points are dropped, >= 0
+  double min_area =
+      0.0; ///< planes with a smaller area are dropped, square metres, >= 0
   ///@}
 
   unsigned int number_of_threads = 1; ///< 0: as many as the machine has cores

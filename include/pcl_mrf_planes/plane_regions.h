@@ -26,8 +26,8 @@ struct PlaneRegion {
 };
 
 /** \brief Gather the regions of the label planes, largest area first; ties by number of
- * points, then by the first point. Labels that won no point, or fewer than
- * \a min_points, give no region.
+ * points, then by the first point. Labels that won no point, fewer than
+ * \a min_points, or less than \a min_area square metres give no region.
  *
  * The area is that of the mesh of neighbouring points, projected into the plane: noise
  * along the viewing ray cancels, sampling density has no say.
@@ -38,7 +38,7 @@ struct PlaneRegion {
 std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<Plane>& planes,
                                        const std::vector<std::uint16_t>& labels,
-                                       int min_points);
+                                       int min_points, double min_area = 0.0);
 
 /** \brief The label image of the regions: 0 no plane, k region k - 1. */
 std::vector<std::uint16_t> regionLabels(const OrganizedPoints& points,

@@ -26,11 +26,11 @@ std::size_t countTiles(const std::vector<TileLevel>& pyramid)
   return tiles;
 }
 
-/// As many points as hold the information of so many with independent noise.
-int independentPoints(int points, const NoiseLaw& noise)
+/// So many points hold the information of one with independent noise.
+double pointsPerIndependentOne(const NoiseLaw& noise)
 {
   const double correlation = noise.growth.back() / noise.growth.front();
-  return static_cast<int>(points * correlation * correlation);
+  return correlation * correlation;
 }
 
 /// Labels from 1 with 0 for none, as label planes from 0 with NO_PLANE for none.
@@ -53,8 +53,12 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
 
   // A. Planar surface detection, with tiles as large as the surfaces allow
   std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters);
-  const NoiseLaw noise = estimateNoise(pyramid, parameters);
-  parameters.min_points = independentPoints(parameters.min_points, noise);
+  const NoiseLaw noise = parameters.estimate_noise
+                             ? estimateNoise(pyramid, parameters)
+                             : statedNoise(all_parameters.noise, pyramid, parameters);
+  const double correlated = pointsPerIndependentOne(noise);
+  parameters.min_points = static_cast<int>(parameters.min_points * correlated);
+  parameters.min_evidence *= correlated;
   assignLocalNoise(pyramid, noise, parameters);
   TileRegions regions = selectTiles(pyramid, noise, parameters);
   report.tiles_tried = countTiles(pyramid);
@@ -89,7 +93,7 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
 
   const std::vector<Plane> planes(regions.planes.begin(), regions.planes.end());
   result.regions = gatherRegions(points, planes, planeIndices(std::move(labels)),
-                                 all_parameters.min_inliers);
+                                 all_parameters.min_inliers, all_parameters.min_area);
   result.labels = regionLabels(points, result.regions);
   timer.finish("regions");
   report.count(points, result.regions);

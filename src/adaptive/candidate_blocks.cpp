@@ -11,7 +11,6 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 constexpr int CELLS = CandidateBlocks::SIDE / CELL; // of a block, each way
-constexpr int REACH = 2;                            // blocks
 constexpr int MIXED = -2;
 
 /// Region of the cells of a rectangle, or MIXED; half open ranges.
@@ -40,17 +39,17 @@ std::vector<int> blockRegions(const TileRegions& regions, const TileLevel& cells
   return region;
 }
 
-/// Region of every block that is all of one region as far as REACH, else MIXED: first
+/// Region of every block that is all of one region as far as the reach, else MIXED: first
 /// along the rows, then along the columns.
 std::vector<int> uniformRegions(const std::vector<int>& region,
-                                const CandidateBlocks& blocks)
+                                const CandidateBlocks& blocks, int reach)
 {
   std::vector<int> along(region.size());
   std::vector<int> uniform(region.size());
   for (int r = 0; r < blocks.rows; ++r)
     for (int c = 0; c < blocks.columns; ++c) {
       int all = region[blocks.at(c, r)];
-      for (int i = std::max(0, c - REACH); i <= std::min(blocks.columns - 1, c + REACH);
+      for (int i = std::max(0, c - reach); i <= std::min(blocks.columns - 1, c + reach);
            ++i)
         all = region[blocks.at(i, r)] == all ? all : MIXED;
       along[blocks.at(c, r)] = all;
@@ -58,7 +57,8 @@ std::vector<int> uniformRegions(const std::vector<int>& region,
   for (int r = 0; r < blocks.rows; ++r)
     for (int c = 0; c < blocks.columns; ++c) {
       int all = along[blocks.at(c, r)];
-      for (int j = std::max(0, r - REACH); j <= std::min(blocks.rows - 1, r + REACH); ++j)
+      for (int j = std::max(0, r - reach); j <= std::min(blocks.rows - 1, r + reach);
+           ++j)
         all = along[blocks.at(c, j)] == all ? all : MIXED;
       uniform[blocks.at(c, r)] = all;
     }
@@ -80,7 +80,8 @@ struct BlockRegions {
   }
 };
 
-std::vector<BlockRegions> listRegions(const TileRegions& regions, const TileLevel& cells,
+std::vector<BlockRegions> listRegions(const TileRegions& regions,
+                                      const TileLevel& cells,
                                       const CandidateBlocks& blocks)
 {
   std::vector<BlockRegions> lists(blocks.count.size());
@@ -94,18 +95,20 @@ std::vector<BlockRegions> listRegions(const TileRegions& regions, const TileLeve
 /// Regions near a block with their distances in blocks, the nearest first.
 class Nearby {
 public:
-  Nearby(const std::vector<BlockRegions>& lists, const CandidateBlocks& blocks)
+  Nearby(const std::vector<BlockRegions>& lists, const CandidateBlocks& blocks,
+         int reach)
   : lists_(lists)
   , blocks_(blocks)
+  , reach_(reach)
   {}
 
   const std::vector<std::pair<int, int>>& find(int column, int row)
   {
     found_.clear();
-    for (int r = std::max(0, row - REACH); r <= std::min(blocks_.rows - 1, row + REACH);
-         ++r)
-      for (int c = std::max(0, column - REACH);
-           c <= std::min(blocks_.columns - 1, column + REACH); ++c) {
+    for (int r = std::max(0, row - reach_);
+         r <= std::min(blocks_.rows - 1, row + reach_); ++r)
+      for (int c = std::max(0, column - reach_);
+           c <= std::min(blocks_.columns - 1, column + reach_); ++c) {
         const BlockRegions& list = lists_[blocks_.at(c, r)];
         for (std::size_t k = 0; k < list.count; ++k)
           note(list.region[k], std::max(std::abs(c - column), std::abs(r - row)));
@@ -127,13 +130,14 @@ private:
 
   const std::vector<BlockRegions>& lists_;
   const CandidateBlocks& blocks_;
+  int reach_;
   std::vector<std::pair<int, int>> found_; ///< distance, region
 };
 
 } // namespace
 
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
-                               int width, int height)
+                               int width, int height, int reach)
 {
   constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
   CandidateBlocks out;
@@ -142,9 +146,9 @@ CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cell
   out.count.assign(out.at(0, out.rows), 1);
   out.labels.assign(out.count.size() * SLOTS, 0);
   const std::vector<int> uniform =
-      uniformRegions(blockRegions(regions, cells, out), out);
+      uniformRegions(blockRegions(regions, cells, out), out, reach);
   const std::vector<BlockRegions> lists = listRegions(regions, cells, out);
-  Nearby nearby(lists, out);
+  Nearby nearby(lists, out, reach);
   const auto add = [&](std::size_t block, int region) {
     out.labels[block * SLOTS + out.count[block]++] =
         static_cast<std::uint16_t>(region + 1);

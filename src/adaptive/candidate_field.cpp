@@ -331,7 +331,8 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
   CandidateField field;
   field.width = points.width;
   field.height = points.height;
-  field.blocks = findCandidates(regions, cells, field.width, field.height);
+  field.blocks = findCandidates(regions, cells, field.width, field.height,
+                                parameters.support_reach);
   FieldBuilder builder(points, regions, cells, noise, parameters, field);
   for (int row = 0; row < field.blocks.rows; ++row)
     for (int column = 0; column < field.blocks.columns; ++column)

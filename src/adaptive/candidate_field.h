@@ -32,10 +32,10 @@ struct CandidateBlocks {
   }
 };
 
-/// "No plane" and the planes whose cells lie at most 16 points away from a block, the
-/// nearest first. O(points)
+/// "No plane" and the planes with cells in a block or at most so many blocks away from it,
+/// the nearest first. O(blocks * reach^2)
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
-                               int width, int height);
+                               int width, int height, int reach);
 
 /// A row of a block: eight numbers, added and compared by single instructions wherever the
 /// compiler knows some (an extension of g++ and clang++).

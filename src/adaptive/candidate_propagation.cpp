@@ -17,7 +17,10 @@ constexpr std::size_t SETTLED = CandidateField::SETTLED;
 
 enum Side : std::size_t { LEFT, RIGHT, ABOVE, BELOW, SIDES };
 
-constexpr Side opposite(Side side) { return static_cast<Side>(side ^ 1U); }
+constexpr Side opposite(Side side)
+{
+  return static_cast<Side>(side ^ 1U);
+}
 
 using Numbers = BlockRow::Numbers;
 using Beliefs = std::array<Numbers, SLOTS>; // not initialized: most are not in use
@@ -31,7 +34,8 @@ struct Messages {
 /// The eight numbers as two words, the first number lowest: what moves from word to word is
 /// one shift away, without an instruction that only newer machines have.
 using Words __attribute__((vector_size(16))) = std::uint64_t;
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the first number is the lowest");
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+              "the first number is the lowest");
 constexpr int NUMBER = 16; ///< bits
 constexpr int REST = 48;
 
@@ -49,15 +53,15 @@ Numbers shiftLeft(Numbers v, std::int16_t last)
 {
   const Words words = reinterpret_cast<Words>(v);
   const Words carry = words << REST;
-  const Words in = {carry[1],
-                    static_cast<std::uint64_t>(static_cast<std::uint16_t>(last)) << REST};
+  const Words in = {
+      carry[1], static_cast<std::uint64_t>(static_cast<std::uint16_t>(last)) << REST};
   return reinterpret_cast<Numbers>((words >> NUMBER) | in);
 }
 
 /// An active block among its neighbours.
 struct Place {
-  std::size_t count;           ///< labels
-  std::size_t first;           ///< costs of its first row
+  std::size_t count;            ///< labels
+  std::size_t first;            ///< costs of its first row
   std::size_t neighbour[SIDES]; ///< active block on each side, or SETTLED
   SlotMap slot[SIDES]; ///< where that neighbour's labels are among those of this block
 };
@@ -97,7 +101,7 @@ public:
     do { // an active block has a label, as the compiler cannot know
       const Messages& m = received_[start + s];
       total[s] = f_.data[start + s].v + (m.from[LEFT] + m.from[RIGHT]) +
-                   (m.from[ABOVE] + m.from[BELOW]);
+                 (m.from[ABOVE] + m.from[BELOW]);
     } while (++s < count);
   }
 
@@ -106,7 +110,8 @@ private:
   void settleIn(std::size_t a)
   {
     const std::size_t block = f_.active[a];
-    const int column = static_cast<int>(block % static_cast<std::size_t>(blocks_.columns));
+    const int column =
+        static_cast<int>(block % static_cast<std::size_t>(blocks_.columns));
     const int row = static_cast<int>(block / static_cast<std::size_t>(blocks_.columns));
     ++band_[static_cast<std::size_t>(row) + 1];
     Place& place = places_[a];
@@ -141,8 +146,8 @@ private:
   }
 
   /// The messages of a settled neighbour: any label but its own costs a change.
-  void hear(const Place& place, const BlockWeights& weight, std::size_t block, Side side,
-            std::uint16_t label)
+  void hear(const Place& place, const BlockWeights& weight, std::size_t block,
+            Side side, std::uint16_t label)
   {
     for (std::size_t s = 0; s < place.count; ++s) {
       if (blocks_.labelsOf(block)[s] == label)
@@ -154,7 +159,8 @@ private:
             weight.down[LAST].v;
       else
         for (std::size_t r = 0; r < SIDE; ++r)
-          received_[place.first + r * place.count + s].from[side][side == LEFT ? 0 : LAST] =
+          received_[place.first + r * place.count + s]
+              .from[side][side == LEFT ? 0 : LAST] =
               side == LEFT ? weight.left.v[r] : weight.right[r].v[LAST];
     }
   }
@@ -238,8 +244,7 @@ private:
     const std::size_t next = target.first + (LAST - row) * target.count;
     const SlotMap& map = place.slot[to];
     for (std::size_t t = 0; t < target.count; ++t)
-      received_[next + t].from[opposite(to)] =
-          map[t] == ABSENT ? price : out[map[t]];
+      received_[next + t].from[opposite(to)] = map[t] == ABSENT ? price : out[map[t]];
   }
 
   const CandidateField& f_;
@@ -250,7 +255,8 @@ private:
 };
 
 /// Labels of a row of an active block: those of the least beliefs.
-Numbers leastLabels(const Beliefs& total, std::size_t count, const std::uint16_t* labels)
+Numbers leastLabels(const Beliefs& total, std::size_t count,
+                    const std::uint16_t* labels)
 {
   Numbers best = total[0];
   Numbers label = static_cast<std::int16_t>(labels[0]) + Numbers{};

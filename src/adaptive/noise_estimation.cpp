@@ -229,6 +229,18 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
   return noise;
 }
 
+NoiseLaw statedNoise(const NoiseModel& stated, const std::vector<TileLevel>& pyramid,
+                     const AdaptiveParameters& parameters)
+{
+  NoiseLaw noise;
+  noise.a = stated.a;
+  noise.b = stated.b;
+  noise.c = stated.c;
+  noise.floor = parameters.min_sigma;
+  noise.growth.assign(pyramid.size(), 1.0);
+  return noise;
+}
+
 void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                       const AdaptiveParameters& parameters)
 {

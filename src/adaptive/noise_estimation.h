@@ -2,6 +2,8 @@
 #pragma once
 #include "adaptive/tile_pyramid.h"
 
+#include <pcl_mrf_planes/noise_model.h>
+
 namespace pcl_mrf_planes::adaptive {
 
 /** \brief Noise of a plane as a function of distance and extent.
@@ -11,6 +13,7 @@ namespace pcl_mrf_planes::adaptive {
  * of any size. White noise grows by 1; a Kinect's, correlated over tens of pixels, by 2. */
 struct NoiseLaw {
   double a = 0;
+  double b = 0; ///< of a stated sigma only
   double c = 0;
   double floor = 0; ///< [m at 1 m]
   std::vector<double> growth;
@@ -18,7 +21,7 @@ struct NoiseLaw {
 
   double small(double z) const
   {
-    const double s = a + c * z * z;
+    const double s = a + z * (b + z * c);
     const double f = floor * (z > 0.1 ? z : 0.1);
     return s > f ? s : f;
   }
@@ -36,6 +39,10 @@ inline double incidenceFactor(const FittedPlane& plane)
 /** \brief Estimate the noise from the tiles themselves, robust to tiles on edges. */
 NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
                        const AdaptiveParameters& parameters);
+
+/** \brief The noise of a sensor that the user names: the same for planes of all sizes. */
+NoiseLaw statedNoise(const NoiseModel& stated, const std::vector<TileLevel>& pyramid,
+                     const AdaptiveParameters& parameters);
 
 /** \brief Fill in TileSums::noise (and FittedPlane::noise) of all tiles: the model's variance,
  * raised where the tiles around all show more (materials, incidence). */

@@ -21,7 +21,8 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
   TileRegions out;
   const TileLevel& cells = pyramid[0];
   out.cell_region.assign(cells.sums.size(), -1);
-  for (std::size_t l = pyramid.size(); l-- > 0;) {
+  const auto smallest = static_cast<std::size_t>(parameters.smallest_level);
+  for (std::size_t l = pyramid.size(); l-- > smallest;) {
     const TileLevel& level = pyramid[l];
     const int k = 1 << l;
     for (int r = 0; r < level.rows; ++r)

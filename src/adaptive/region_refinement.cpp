@@ -113,8 +113,8 @@ private:
         sum.noise += noise;
         vote(labels_[i]);
       }
-    const auto most =
-        std::max_element(votes_.begin(), votes_.end(), [](const auto& a, const auto& b) {
+    const auto most = std::max_element(
+        votes_.begin(), votes_.end(), [](const auto& a, const auto& b) {
           return a.second != b.second ? a.second < b.second : a.first > b.first;
         });
     return most == votes_.end() ? std::uint16_t{0} : most->first;
@@ -135,15 +135,19 @@ private:
   std::vector<std::pair<std::uint16_t, int>> votes_;
 };
 
-/// Whether points fit a plane as well as their noise allows, and spread so far that it is
-/// not the noise which makes them one.
+/// Whether points fit a plane as well as their noise allows, and there is so much of it
+/// that chance does not explain it: n ln(width / rms) nats are saved by an equation that
+/// tells where on their plane points lie, and not where in a slab as thick as it is wide.
 bool isPlane(const FittedPlane& plane, const NoiseLaw& noise,
              const AdaptiveParameters& parameters)
 {
+  constexpr double THINNEST = 1e-6; // metres
   const double tolerance = parameters.accept_tolerance * parameters.accept_tolerance;
-  const double width = parameters.min_width * parameters.min_width;
-  const double allowed = allowedVariance(plane, noise, parameters);
-  return plane.mse <= tolerance * allowed && plane.width * plane.width >= width * allowed;
+  if (plane.n < parameters.min_points ||
+      plane.mse > tolerance * allowedVariance(plane, noise, parameters))
+    return false;
+  const double rms = std::max(std::sqrt(plane.mse), THINNEST);
+  return plane.n * std::log(plane.width / rms) >= parameters.min_evidence;
 }
 
 } // namespace
@@ -152,7 +156,7 @@ TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
                           const NoiseLaw& noise, const AdaptiveParameters& parameters,
                           std::vector<std::uint16_t>& labels)
 {
-  const LabelRuns image = dropSmallParts(points.width, parameters.min_points / 4, labels);
+  const LabelRuns image = dropSmallParts(points.width, parameters.min_points, labels);
   std::size_t count = 1;
   for (const LabelRun& run : image.runs)
     count = std::max<std::size_t>(count, run.label + 1U);
@@ -160,8 +164,6 @@ TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
   TileRegions out;
   std::vector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
-    if (found.sums[k].n < parameters.min_points)
-      continue;
     const FittedPlane plane = fitSums(found.sums[k]);
     if (!isPlane(plane, noise, parameters))
       continue;
@@ -304,8 +306,9 @@ void dropCurvedFans(const OrganizedPoints& points, const NoiseLaw& noise,
   const LabelRuns image = findRuns(labels, points.width, 0);
   const double largest =
       parameters.fan_share * static_cast<double>(points.countValid());
-  const std::vector<int> fan = fanSizes(BorderFinder(points, regions, labels).find(image),
-                                        regions, largest, noise, parameters);
+  const std::vector<int> fan =
+      fanSizes(BorderFinder(points, regions, labels).find(image), regions, largest,
+               noise, parameters);
   const std::vector<Bend> bends = measureBends(points, labels, regions.planes);
   const auto curved = [&](const Bend& bend) {
     return bend.angle > parameters.bend_angle * DEGREE &&

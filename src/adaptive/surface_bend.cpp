@@ -72,7 +72,7 @@ private:
   Matrix6 normalMatrix() const
   {
     constexpr int PRODUCT[UNKNOWNS][UNKNOWNS] = {
-        {0, 1, 2, 3, 4, 5},    {1, 3, 4, 6, 7, 8},     {2, 4, 5, 7, 8, 9},
+        {0, 1, 2, 3, 4, 5},    {1, 3, 4, 6, 7, 8},    {2, 4, 5, 7, 8, 9},
         {3, 6, 7, 10, 11, 12}, {4, 7, 8, 11, 12, 13}, {5, 8, 9, 12, 13, 14}};
     Matrix6 a;
     for (int r = 0; r < 6; ++r)

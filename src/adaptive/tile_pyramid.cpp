@@ -30,9 +30,9 @@ void sumCells(const OrganizedPoints& points, TileLevel& cells)
   const int whole = points.width / CELL;
   for (int r = 0; r < cells.rows; ++r) {
     const std::size_t i = static_cast<std::size_t>(r * CELL) * width;
-    const TileStrip strip = {&points.x[i],     &points.y[i],
-                             &points.z[i],     &points.valid[i],
-                             width,            std::min(CELL, points.height - r * CELL)};
+    const TileStrip strip = {&points.x[i], &points.y[i],
+                             &points.z[i], &points.valid[i],
+                             width,        std::min(CELL, points.height - r * CELL)};
     sumTiles(strip, static_cast<std::size_t>(whole), &cells.sums[cells.at(0, r)]);
     if (whole < cells.columns)
       cells.sums[cells.at(whole, r)] = sumCutTile(points, whole * CELL, r * CELL);

@@ -26,10 +26,14 @@ struct Covariance {
   }
 
   double trace() const { return xx + yy + zz; }
-  double minors() const { return xx * yy - xy * xy + xx * zz - xz * xz + yy * zz - yz * yz; }
+  double minors() const
+  {
+    return xx * yy - xy * xy + xx * zz - xz * xz + yy * zz - yz * yz;
+  }
   double determinant() const
   {
-    return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) +
+           xz * (xy * yz - yy * xz);
   }
   /// Mean square along a direction of unit length.
   double along(const Eigen::Vector3d& n) const

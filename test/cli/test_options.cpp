@@ -18,7 +18,8 @@ const std::vector<std::string> OTHER_OPTIONS = {
     "models", "label-image", "overlay", "format", "config", "profile",
     "repeat", "timing",      "quiet",   "help",   "version"};
 
-const Values COMMON = {{"depth", "range"}, {"min-inliers", 30}, {"threads", 2}};
+const Values COMMON = {
+    {"depth", "range"}, {"min-inliers", 30}, {"min-area", 0.0625}, {"threads", 2}};
 
 /// Of profile paper; --energy, a switch, comes on top.
 const Values PAPER = {{"tile-width", 16},
@@ -38,8 +39,9 @@ const Values PAPER = {{"tile-width", 16},
                       {"convergence-tolerance", 1e-05}};
 
 /// Of profile default.
-const Values ADAPTIVE = {{"cell", 8},
-                         {"levels", 3},
+const Values ADAPTIVE = {{"levels", 3},
+                         {"smallest-level", 1},
+                         {"noise", "0.002,0,0.0019"},
                          {"tile-tolerance", 2.25},
                          {"min-fill", 0.625},
                          {"noise-percentile", 0.55},
@@ -56,7 +58,7 @@ const Values ADAPTIVE = {{"cell", 8},
                          {"region-tolerance", 2.125},
                          {"accept-tolerance", 1.875},
                          {"min-points", 150},
-                         {"min-width", 2.5},
+                         {"min-evidence", 450.5},
                          {"join-coplanar", false},
                          {"join-tolerance", 1.75},
                          {"join-gap", 2.5},
@@ -69,11 +71,12 @@ const Values ADAPTIVE = {{"cell", 8},
                          {"fan-gap", 2.5},
                          {"bend-angle", 17.5},
                          {"bend-share", 0.375},
+                         {"support-reach", 3},
                          {"none-cost", 4.5},
                          {"label-change", 1.25},
                          {"step-sigmas", 6.5},
                          {"min-weight", 0.125},
-                         {"passes", 2},
+                         {"passes", 4},
                          {"rounds", 1}};
 
 /// All of a profile, after the common ones.

@@ -114,7 +114,8 @@ TEST_F(Reports, JsonNamesTheParametersOfTheDefaultProfile)
   EXPECT_EQ(report["planes"].size(), 2u);
   const Json& parameters = report["parameters"];
   EXPECT_EQ(parameters["profile"], "default");
-  EXPECT_EQ(parameters["cell"], 4);
+  EXPECT_EQ(parameters["levels"], 4);
+  EXPECT_EQ(parameters["noise"], "auto");
   EXPECT_EQ(parameters["join_coplanar"], true);
   EXPECT_FALSE(parameters.contains("tile_width")) << "it has no effect";
   EXPECT_FALSE(report.contains("energy"));
