@@ -7,6 +7,8 @@
 #include "peer_options.h"
 #include "result_table.h"
 
+#include "evaluation/contingency_table.h"
+#include "evaluation/region_counts.h"
 #include "evaluation/segmentation_score.h"
 
 #include <pcl/console/print.h>
@@ -23,8 +25,8 @@
 namespace {
 
 using namespace pcl_mrf_planes::benchmarks;
-using pcl_mrf_planes::evaluation::LabelImage;
-using pcl_mrf_planes::evaluation::scoreLabels;
+namespace evaluation = pcl_mrf_planes::evaluation;
+using evaluation::LabelImage;
 
 constexpr double LONG_RUN = 2000.0; // milliseconds: is not repeated
 
@@ -81,6 +83,13 @@ void writeLabels(const std::string& folder, const Result& result,
   writeLabelPng((place / (result.frame + ".png")).string(), labels);
 }
 
+void score(const LabelImage& truth, const LabelImage& labels, Result& result)
+{
+  const evaluation::ContingencyTable table = evaluation::compareLabels(truth, labels);
+  result.score = evaluation::scoreTable(table);
+  result.curve = evaluation::toleranceCurve(table, 0);
+}
+
 Result runOn(const Frame& frame, const Cloud::ConstPtr& cloud,
              const std::optional<LabelImage>& truth, const PeerRun& run,
              const PeerOptions& options)
@@ -95,7 +104,7 @@ Result runOn(const Frame& frame, const Cloud::ConstPtr& cloud,
   const LabelImage labels = {result.width, result.height,
                              timedRun(run, cloud, options.repeat, result.milliseconds)};
   if (truth)
-    result.score = scoreLabels(*truth, labels);
+    score(*truth, labels, result);
   if (!options.label_folder.empty())
     writeLabels(options.label_folder, result, labels);
   return result;

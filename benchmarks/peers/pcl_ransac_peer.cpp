@@ -17,6 +17,7 @@ namespace pcl_mrf_planes::benchmarks {
 namespace {
 
 constexpr std::uint16_t MAX_PLANES = 1000;
+constexpr int MAX_FAILURES = 3; // planes in a row without a part that is large enough
 
 /// The cloud that planes are found on.
 struct ThinCloud {
@@ -99,7 +100,8 @@ private:
       dropLabelled();
     else
       drop(inliers.indices);
-    return true;
+    failures_ = found ? 0 : failures_ + 1;
+    return failures_ < MAX_FAILURES;
   }
 
   std::vector<std::uint8_t> membersOf(const pcl::ModelCoefficients& plane) const
@@ -161,6 +163,7 @@ private:
   double least_left_ = 0.0;
   pcl::IndicesPtr pool_; ///< ascending: points of the thin cloud that are left
   std::uint16_t planes_ = 0;
+  int failures_ = 0;
   pcl::SACSegmentation<pcl::PointXYZ> segmentation_{false}; // false: a fixed seed
 };
 

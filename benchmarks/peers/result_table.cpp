@@ -79,6 +79,8 @@ ResultFile::ResultFile(const std::string& path)
   stream_ << "method,setting,set,frame,width,height,milliseconds";
   for (const evaluation::ScoreColumn& column : columns())
     stream_ << ',' << column.name;
+  for (const double tolerance : evaluation::curveTolerances())
+    stream_ << ",correct_" << tolerance;
   if (!(stream_ << std::endl))
     throw std::runtime_error("cannot write '" + partOf(path) + "'");
 }
@@ -94,6 +96,12 @@ void ResultFile::add(const Result& result)
     stream_ << ',';
     if (!std::isnan(numbers.*column.value))
       stream_ << numbers.*column.value;
+  }
+  // Without ground truth as many empty columns as tolerances.
+  for (std::size_t k = 0; k < evaluation::curveTolerances().size(); ++k) {
+    stream_ << ',';
+    if (k < result.curve.size())
+      stream_ << result.curve[k].counts.correct;
   }
   stream_ << std::endl; // an interrupted run keeps what it has
 }

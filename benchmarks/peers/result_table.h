@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "evaluation/region_counts.h"
 #include "evaluation/segmentation_score.h"
 
 #include <fstream>
@@ -17,6 +18,7 @@ struct Result {
   int height = 0;
   double milliseconds = 0.0;
   std::optional<evaluation::SegmentationScore> score; ///< none without ground truth
+  std::vector<evaluation::CurvePoint> curve;          ///< with the score
 };
 
 /** \brief A CSV that has its name only once it is complete: until then it grows under
