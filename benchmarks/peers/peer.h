@@ -4,8 +4,8 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <string>
@@ -35,25 +35,25 @@ struct Peer {
   std::vector<Setting> settings; ///< the last is what --try starts from
 
   /** \brief Segment an organized cloud, on one core, the same labels on every call.
-   * \param[out] milliseconds from points in the form that the method takes to labels
-   *             in the form that it gives; normals are part of it
+   * \param[out] milliseconds of processor time from points in the form that the method
+   *             takes to labels in the form that it gives, normals included
    */
   std::function<Labels(const Cloud::ConstPtr& cloud, const Values& values,
                        double& milliseconds)>
       segment;
 };
 
-/** \brief Milliseconds since it was made. */
+/** \brief Processor time of this program since it was made: on one core the same as time
+ * by the clock, but other programs on the machine do not count. */
 class Stopwatch {
 public:
   double milliseconds() const
   {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+    return 1000.0 * static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
+  std::clock_t start_ = std::clock();
 };
 
 } // namespace pcl_mrf_planes::benchmarks
