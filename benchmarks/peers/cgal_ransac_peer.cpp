@@ -101,7 +101,7 @@ Peer makeCgalRansac()
             "best of tune_peers.py",
             {{"probability", 0.01},
              {"min_points", 1000},
-             {"epsilon", 0.01},
+             {"epsilon", 0.005},
              {"cluster_epsilon", 0.03},
              {"angle", 25},
              {"smoothing", 10},
