@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "options.h"
 
+#include "command_line.h"
+
 #include <boost/program_options.hpp>
 
 #include <filesystem>
@@ -17,12 +19,6 @@ namespace po = boost::program_options;
 namespace {
 
 constexpr int MOST_REPEATS = 1000000;
-
-/// A text option, whose value is checked by us: Boost's messages name no range.
-po::typed_value<std::string>* text(const std::string& argument)
-{
-  return po::value<std::string>()->value_name(argument);
-}
 
 po::options_description fileOptions()
 {
@@ -86,35 +82,6 @@ po::options_description allVisible()
   return all;
 }
 
-/// -h, and a word with a dash in front that is neither an option nor a number.
-std::pair<std::string, std::string> parseShort(const std::string& word)
-{
-  if (word == "-h")
-    return {"help", ""};
-  const bool is_number =
-      word.size() > 1 && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
-  if (word.size() > 1 && word[0] == '-' && word[1] != '-' && !is_number)
-    throw UsageError("unknown option '" + word + "'; see --help");
-  return {};
-}
-
-void parseCommandLine(int argc, const char* const argv[], po::variables_map& values)
-{
-  po::options_description all = allVisible();
-  all.add_options()("files", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("files", -1);
-  // No short options: -1 is a number. No guessing: a script must mean what it says.
-  using namespace po::command_line_style;
-  po::store(po::command_line_parser(argc, argv)
-                .options(all)
-                .positional(positional)
-                .style(allow_long | long_allow_adjacent | long_allow_next)
-                .extra_parser(parseShort)
-                .run(),
-            values);
-}
-
 void parseConfiguration(const std::string& path, po::variables_map& values)
 {
   std::error_code error;
@@ -129,16 +96,6 @@ void parseConfiguration(const std::string& path, po::variables_map& values)
     throw UsageError("configuration file '" + path + "': " + problem.what() +
                      "; lines are name=value, see --help");
   }
-}
-
-std::string given(const po::variables_map& values, const char* name)
-{
-  if (values.count(name) == 0)
-    return {};
-  const std::string& value = values[name].as<std::string>();
-  if (value.empty())
-    throw UsageError(std::string("--") + name + " is empty; give a value");
-  return value;
 }
 
 PcdFormat parseFormat(const std::string& name)
@@ -185,14 +142,6 @@ void readParameters(const po::variables_map& values, Options& options)
   checkParameters(options.parameters);
 }
 
-bool sameFile(const std::string& a, const std::string& b)
-{
-  std::error_code error;
-  return !a.empty() && !b.empty() &&
-         std::filesystem::weakly_canonical(a, error) ==
-             std::filesystem::weakly_canonical(b, error);
-}
-
 /// Files that would overwrite each other; only OUT.pcd may be the input.
 void checkFileNames(const Options& options)
 {
@@ -201,22 +150,16 @@ void checkFileNames(const Options& options)
       {"--models", options.models},
       {"--label-image", options.label_image},
       {"--overlay", options.overlay}};
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (i > 0 && sameFile(outputs[i].second, options.input))
+  for (std::size_t i = 1; i < outputs.size(); ++i)
+    if (sameFile(outputs[i].second, options.input))
       throw UsageError(outputs[i].first + " would overwrite the input '" +
                        options.input + "'; name another file");
-    for (std::size_t j = 0; j < i; ++j)
-      if (sameFile(outputs[i].second, outputs[j].second))
-        throw UsageError(outputs[j].first + " and " + outputs[i].first +
-                         " name the same file '" + outputs[i].second + "'; name two");
-  }
+  checkDifferent(outputs);
 }
 
 void readFileNames(const po::variables_map& values, Options& options)
 {
-  std::vector<std::string> files;
-  if (values.count("files") != 0)
-    files = values["files"].as<std::vector<std::string>>();
+  const std::vector<std::string> files = givenFiles(values);
   if (files.empty())
     throw UsageError("no input file; usage: IN.pcd OUT.pcd [options], see --help");
   if (files.size() > 2)
@@ -242,7 +185,7 @@ Options parseOptions(int argc, const char* const argv[])
   Options options;
   po::variables_map values;
   try {
-    parseCommandLine(argc, argv, values);
+    readCommandLine(argc, argv, allVisible(), values);
     options.help = values["help"].as<bool>();
     options.version = values["version"].as<bool>();
     if (options.help || options.version)

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "option_values.h"
+
 #include <pcl_mrf_planes/parameters.h>
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace pcl_mrf_planes::apps {
-
-/** \brief The call was wrong: exit status 2. */
-class UsageError : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
 
 /** \brief One value of Parameters as an option: text in, text out. */
 struct ParameterOption {
@@ -40,11 +35,5 @@ Profile profileFromName(const std::string& name);
 /** \brief Parameters::validate(), in the words of the options.
  * \throws UsageError */
 void checkParameters(const Parameters& parameters);
-
-/** \brief A whole number from an option. \throws UsageError */
-int parseInteger(const std::string& option, const std::string& text, int low, int high);
-
-/** \brief Comma and blank between words. */
-std::string join(const std::vector<std::string>& words, const char* between = ", ");
 
 } // namespace pcl_mrf_planes::apps

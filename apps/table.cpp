@@ -1,31 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "table.h"
 
-#include <iomanip>
-#include <locale>
-#include <sstream>
+#include "text_cells.h"
+
 #include <string>
 
 namespace pcl_mrf_planes::apps {
-
-namespace {
-
-/// A number with so many decimals, whatever the locale.
-std::string fixed(double value, int decimals)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(decimals) << value;
-  return text.str();
-}
-
-/// A cell of a table, at least so wide.
-std::string cell(const std::string& text, std::size_t width)
-{
-  return (text.size() < width ? std::string(width - text.size(), ' ') : "") + text;
-}
-
-} // namespace
 
 void printPlanes(std::ostream& out, const SegmentedCloud& result)
 {

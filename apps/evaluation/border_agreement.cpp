@@ -84,8 +84,11 @@ void count(const Mask& border, const Mask& near, std::int64_t& points,
 
 double BorderAgreement::f() const
 {
-  const double sum = precision() + recall();
-  return sum == 0.0 ? 0.0 : 2.0 * precision() * recall() / sum; // NaN stays NaN
+  if (truth_points == 0)
+    return NONE;
+  if (truth_found == 0 || label_found == 0)
+    return 0.0;
+  return 2.0 * precision() * recall() / (precision() + recall());
 }
 
 BorderAgreement compareBorders(const LabelImage& truth, const LabelImage& labels,

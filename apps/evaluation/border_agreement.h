@@ -26,18 +26,24 @@ struct BorderAgreement {
   std::int64_t label_points = 0; ///< border points of the result
   std::int64_t label_found = 0;  ///< of them, near one of the truth
 
-  /** \brief Share of the result's border points that were found, NaN without any. */
-  double precision() const { return share(label_found, label_points); }
+  /** \brief Share of the result's border points that were found. NaN without any, and
+   * where the truth has none: guard bands that are not scored may hide its borders. */
+  double precision() const
+  {
+    return truth_points > 0 ? share(label_found, label_points) : NONE;
+  }
   /** \brief Share of the truth's border points that were found, NaN without any. */
   double recall() const { return share(truth_found, truth_points); }
-  /** \brief Harmonic mean of precision and recall, NaN unless there are both. */
+  /** \brief Harmonic mean of precision and recall; 0 for a result without borders, NaN
+   * for a truth without. */
   double f() const;
 
 private:
+  static constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+
   static double share(std::int64_t part, std::int64_t whole)
   {
-    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole)
-                     : std::numeric_limits<double>::quiet_NaN();
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : NONE;
   }
 };
 

@@ -29,6 +29,7 @@ grep -q 'points on' <<<"$printed"
 
 # The installed apps find their library without help.
 "$work/prefix/bin/pcl_mrf_plane_segmentation" --version
+"$work/prefix/bin/pcl_mrf_plane_evaluation" --version
 # Nothing of this machine's processor is in the flags that users get.
 if grep -rn -e '-march' -e '-mtune' -e '-mavx' "$work/prefix/lib"/*/cmake \
   "$work/prefix/lib"/*/pkgconfig; then
