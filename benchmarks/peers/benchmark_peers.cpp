@@ -2,7 +2,6 @@
 /** \file Command line: our segmentation and others on the same clouds, time and score of
  * each. */
 #include "frames.h"
-#include "label_png.h"
 #include "peer_list.h"
 #include "peer_options.h"
 #include "result_table.h"
@@ -12,11 +11,13 @@
 #include "evaluation/segmentation_score.h"
 
 #include <pcl/console/print.h>
+#include <pcl/io/png_io.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -80,7 +81,11 @@ void writeLabels(const std::string& folder, const Result& result,
                                       (result.method + '.' + result.setting) /
                                       result.set;
   std::filesystem::create_directories(place);
-  writeLabelPng((place / (result.frame + ".png")).string(), labels);
+  const std::string path = (place / (result.frame + ".png")).string();
+  std::filesystem::remove(path);
+  pcl::io::saveShortPNGFile(path, labels.labels.data(), labels.width, labels.height, 1);
+  if (!std::filesystem::exists(path)) // PCL does not say
+    throw std::runtime_error("cannot write '" + path + "'");
 }
 
 void score(const LabelImage& truth, const LabelImage& labels, Result& result)
@@ -132,7 +137,7 @@ void runAll(const std::vector<PeerRun>& runs, const PeerOptions& options)
       continue;
     std::optional<LabelImage> truth;
     if (!frame.truth.empty())
-      truth = readLabelPng(frame.truth);
+      truth = readTruth(frame);
     for (const PeerRun& run : runs) {
       results.push_back(runOn(frame, cloud, truth, run, options));
       file.add(results.back());

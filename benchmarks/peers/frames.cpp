@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frames.h"
 
+#include "evaluation/png_labels.h"
+
 #include <pcl/io/pcd_io.h>
 
 #include <algorithm>
@@ -65,6 +67,16 @@ Cloud::Ptr readCloud(const Frame& frame)
   if (!cloud->isOrganized())
     throw std::runtime_error("'" + frame.cloud + "' is not organized");
   return cloud;
+}
+
+evaluation::LabelImage readTruth(const Frame& frame)
+{
+  try {
+    return evaluation::readLabelPng(frame.truth);
+  }
+  catch (const std::runtime_error& error) {
+    throw std::runtime_error("'" + frame.truth + "' " + error.what());
+  }
 }
 
 } // namespace pcl_mrf_planes::benchmarks

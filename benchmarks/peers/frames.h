@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "evaluation/label_image.h"
 #include "peer.h"
 
 #include <string>
@@ -27,5 +28,9 @@ std::vector<Frame> listFrames(const std::string& folder,
 /** \brief Read the cloud of a frame.
  * \throws std::runtime_error when it cannot be read or is not organized */
 Cloud::Ptr readCloud(const Frame& frame);
+
+/** \brief Read the ground truth of a frame that has it.
+ * \throws std::runtime_error when it cannot be read */
+evaluation::LabelImage readTruth(const Frame& frame);
 
 } // namespace pcl_mrf_planes::benchmarks

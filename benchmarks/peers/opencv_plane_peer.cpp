@@ -95,12 +95,12 @@ Peer makeOpencvPlane()
              {"normals", 1}}},
            {"tuned",
             "best of tune_peers.py",
-            {{"block_size", 40},
-             {"min_size", 1600},
-             {"threshold", 0.01},
-             {"sensor_error_a", 0.0075},
-             {"sensor_error_b", 0},
-             {"sensor_error_c", 0},
+            {{"block_size", 20},
+             {"min_size", 800},
+             {"threshold", 0.007},
+             {"sensor_error_a", 0},
+             {"sensor_error_b", 0.002},
+             {"sensor_error_c", 0.001},
              {"normals", 1}}}},
           segment};
 }
