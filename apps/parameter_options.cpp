@@ -146,7 +146,6 @@ std::vector<ParameterOption> adaptiveOptions()
 {
   using A = AdaptiveParameters;
   return {
-      integer("cell", &A::cell, "POINTS", "side of the smallest tile: 2, 4 or 8"),
       integer("levels", &A::levels, "COUNT", "tile sizes, each twice the one before"),
       real("tile-tolerance", &A::tile_tolerance, "SIGMAS",
            "rms distance that a tile may have"),

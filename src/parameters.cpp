@@ -99,8 +99,6 @@ std::string Parameters::validate() const
   checkAdaptive(adaptive, range);
   if (!range.message().empty())
     return range.message();
-  if (adaptive.cell != 2 && adaptive.cell != 4 && adaptive.cell != 8)
-    return "cell is " + std::to_string(adaptive.cell) + "; choose 2, 4 or 8";
   const double probe = noise.sigma(1.0);
   if (std::isnan(probe) || std::isnan(noise.sigma(10.0)) || probe <= 0.0)
     return "noise gives no positive standard deviation at 1 m; choose a preset or "

@@ -3,9 +3,13 @@
 
 #include <pcl_mrf_planes/scatter_matrix.h>
 
+#include "adaptive/tile_sums_kernel.h"
+#include "label_runs.h"
+#include "region_area.h"
+
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -13,90 +17,73 @@ namespace pcl_mrf_planes {
 
 namespace {
 
-/// What is gathered of one label on the way through the image.
-struct RegionSums {
-  std::vector<int> indices;
-  ScatterMatrix scatter;
-  double area = 0.0;
-};
-
-Eigen::Vector3d pointAt(const OrganizedPoints& points, std::size_t i)
+/// Labels of the points that were measured; NO_PLANE for the others.
+std::vector<std::uint16_t> labelsOfValid(const OrganizedPoints& points,
+                                         const std::vector<std::uint16_t>& labels)
 {
-  return {points.x[i], points.y[i], points.z[i]};
+  std::vector<std::uint16_t> out(labels.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = points.valid[i] != 0 ? labels[i] : NO_PLANE;
+  return out;
 }
 
-/// Adds the points of a row to the sums of their labels, run by run.
-void addRow(const OrganizedPoints& points, const std::vector<std::uint16_t>& labels,
-            std::size_t start, std::size_t end, std::vector<RegionSums>& sums)
+/// Points of each label.
+std::vector<std::size_t> countPoints(const LabelRuns& image, std::size_t labels)
 {
-  for (std::size_t i = start; i < end;) {
-    if (points.valid[i] == 0 || labels[i] == NO_PLANE) {
-      ++i;
-      continue;
-    }
-    const std::uint16_t label = labels[i];
-    ScatterMatrix run;
-    std::vector<int>& indices = sums[label].indices;
-    for (; i < end && points.valid[i] != 0 && labels[i] == label; ++i) {
-      run.add(points.x[i], points.y[i], points.z[i]);
-      indices.push_back(static_cast<int>(i));
-    }
-    sums[label].scatter += run;
-  }
+  std::vector<std::size_t> counts(labels, 0);
+  for (const LabelRun& run : image.runs)
+    counts[run.label] += run.end - run.begin;
+  return counts;
 }
 
-/// Area of the surface between four neighbouring points, or three of them, in the plane
-/// of their label. The component of the cross product along the normal has a sign, so
-/// that noise cancels between neighbouring squares.
-///
-/// a b
-/// c d
-void addSquare(const OrganizedPoints& points, const std::vector<Plane>& planes,
-               const std::vector<std::uint16_t>& labels, std::size_t a,
-               std::vector<RegionSums>& sums)
+/// Ten sums of a run, in four columns as those of a tile.
+ScatterMatrix sumRun(const OrganizedPoints& points, const LabelRun& run)
 {
-  const std::size_t b = a + 1;
-  const std::size_t c = a + static_cast<std::size_t>(points.width);
-  const std::size_t d = c + 1;
-  const auto joined = [&](std::size_t i, std::size_t j) {
-    return points.valid[i] != 0 && points.valid[j] != 0 && labels[i] == labels[j] &&
-           labels[i] != NO_PLANE;
-  };
-  const bool ab = joined(a, b);
-  const bool cd = joined(c, d);
-  const bool ac = joined(a, c);
-  const bool bd = joined(b, d);
-  const auto edge = [&](std::size_t from, std::size_t to) {
-    return Eigen::Vector3d(pointAt(points, to) - pointAt(points, from));
-  };
-  const auto add = [&](std::size_t corner, const Eigen::Vector3d& u,
-                       const Eigen::Vector3d& v) {
-    const std::uint16_t label = labels[corner];
-    sums[label].area += 0.5 * planes[label].normal.dot(u.cross(v));
-  };
-  if (ab && cd && ac)
-    add(a, edge(a, d), edge(b, c)); // the diagonals give the whole square
-  else if (ab && ac)
-    add(a, edge(a, b), edge(a, c));
-  else if (ab && bd)
-    add(b, edge(b, d), edge(b, a));
-  else if (cd && ac)
-    add(c, edge(c, a), edge(c, d));
-  else if (cd && bd)
-    add(d, edge(d, c), edge(d, b));
+  constexpr std::size_t COLUMNS = 4;
+  const std::size_t rows = (run.end - run.begin) / COLUMNS;
+  adaptive::TileSums sums;
+  if (rows > 0)
+    adaptive::sumTiles({&points.x[run.begin], &points.y[run.begin],
+                        &points.z[run.begin], &points.valid[run.begin], COLUMNS,
+                        static_cast<int>(rows)},
+                       1, &sums);
+  sums.n = static_cast<double>(rows * COLUMNS);
+  for (std::size_t i = run.begin + rows * COLUMNS; i < run.end; ++i)
+    sums.add(points.x[i], points.y[i], points.z[i]);
+  return sums;
 }
 
-PlaneRegion makeRegion(const Plane& plane, std::size_t label, RegionSums&& sums)
+PlaneRegion makeRegion(const Plane& plane, std::size_t label, double area,
+                       const ScatterMatrix& scatter)
 {
   PlaneRegion region;
   region.plane = plane;
   region.label = static_cast<int>(label);
-  region.indices = std::move(sums.indices);
-  region.area = std::abs(sums.area);
-  region.rms = sums.scatter.rmsDistance(plane);
-  region.centroid = sums.scatter.centroid();
-  region.covariance = sums.scatter.covariance();
+  region.area = area;
+  region.rms = scatter.rmsDistance(plane);
+  region.centroid = scatter.centroid();
+  region.covariance = scatter.covariance();
   return region;
+}
+
+/// Points of the runs of each label that has a region.
+void fillIndices(const LabelRuns& image, const std::vector<std::size_t>& counts,
+                 std::vector<PlaneRegion>& regions)
+{
+  std::vector<PlaneRegion*> of_label(counts.size(), nullptr);
+  for (PlaneRegion& region : regions) {
+    const auto label = static_cast<std::size_t>(region.label);
+    of_label[label] = &region;
+    region.indices.reserve(counts[label]);
+  }
+  for (const LabelRun& run : image.runs)
+    if (PlaneRegion* region = of_label[run.label]) {
+      std::vector<int>& indices = region->indices;
+      const std::size_t size = indices.size();
+      indices.resize(size + run.end - run.begin);
+      std::iota(indices.begin() + static_cast<std::ptrdiff_t>(size), indices.end(),
+                static_cast<int>(run.begin));
+    }
 }
 
 /// Largest area first; then most points; then the first point.
@@ -113,20 +100,19 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<std::uint16_t>& labels,
                                        int min_points)
 {
-  std::vector<RegionSums> sums(planes.size());
-  const auto width = static_cast<std::size_t>(points.width);
-  for (std::size_t row = 0; row < points.size(); row += width) {
-    addRow(points, labels, row, row + width, sums);
-    if (row + width < points.size())
-      for (std::size_t i = row; i + 1 < row + width; ++i)
-        addSquare(points, planes, labels, i, sums);
-  }
+  const LabelRuns image =
+      findRuns(labelsOfValid(points, labels), points.width, NO_PLANE);
+  const std::vector<std::size_t> counts = countPoints(image, planes.size());
+  const std::vector<double> areas = meshAreas(points, planes, image);
+  std::vector<ScatterMatrix> scatter(planes.size());
+  for (const LabelRun& run : image.runs)
+    scatter[run.label] += sumRun(points, run);
 
   std::vector<PlaneRegion> regions;
   for (std::size_t l = 0; l < planes.size(); ++l)
-    if (!sums[l].indices.empty() &&
-        sums[l].indices.size() >= static_cast<std::size_t>(min_points))
-      regions.push_back(makeRegion(planes[l], l, std::move(sums[l])));
+    if (counts[l] > 0 && counts[l] >= static_cast<std::size_t>(std::max(min_points, 0)))
+      regions.push_back(makeRegion(planes[l], l, areas[l], scatter[l]));
+  fillIndices(image, counts, regions);
   std::sort(
       regions.begin(), regions.end(),
       [](const PlaneRegion& p, const PlaneRegion& q) { return rank(p) < rank(q); });

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/region_contour.h>
 
+#include "label_runs.h"
+
+#include <algorithm>
 #include <cstddef>
 
 namespace pcl_mrf_planes {
@@ -12,53 +15,24 @@ constexpr int DIRECTIONS = 8;
 constexpr int DX[DIRECTIONS] = {-1, -1, 0, 1, 1, 1, 0, -1};
 constexpr int DY[DIRECTIONS] = {0, -1, -1, -1, 0, 1, 1, 1};
 
-/// Gives the part that starts at \a seed its number, point by point.
-void flood(const std::vector<std::uint16_t>& labels, int width, int height, int seed,
-           ConnectedParts& parts, std::vector<int>& open)
-{
-  const int part = static_cast<int>(parts.size.size());
-  const std::uint16_t label = labels[static_cast<std::size_t>(seed)];
-  int size = 0;
-  const auto visit = [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (labels[at] == label && parts.part_of_point[at] == ConnectedParts::NONE) {
-      parts.part_of_point[at] = part;
-      open.push_back(i);
-      ++size;
-    }
-  };
-  visit(seed);
-  while (!open.empty()) {
-    const int i = open.back();
-    open.pop_back();
-    const int x = i % width;
-    const int y = i / width;
-    if (x > 0)
-      visit(i - 1);
-    if (x + 1 < width)
-      visit(i + 1);
-    if (y > 0)
-      visit(i - width);
-    if (y + 1 < height)
-      visit(i + width);
-  }
-  parts.size.push_back(size);
-  parts.first.push_back(seed);
-  parts.label.push_back(label);
-}
-
 } // namespace
 
 ConnectedParts findConnectedParts(const std::vector<std::uint16_t>& labels, int width,
-                                  int height)
+                                  int)
 {
   ConnectedParts parts;
   parts.part_of_point.assign(labels.size(), ConnectedParts::NONE);
-  std::vector<int> open;
-  for (int i = 0; i < width * height; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (labels[at] != 0 && parts.part_of_point[at] == ConnectedParts::NONE)
-      flood(labels, width, height, i, parts, open);
+  const LabelRuns image = findRuns(labels, width, 0);
+  const RunParts found = connectRuns(image);
+  for (std::size_t k = 0; k < image.runs.size(); ++k)
+    std::fill(
+        parts.part_of_point.begin() + static_cast<std::ptrdiff_t>(image.runs[k].begin),
+        parts.part_of_point.begin() + static_cast<std::ptrdiff_t>(image.runs[k].end),
+        found.part_of_run[k]);
+  parts.size = found.size;
+  for (const std::size_t first : found.first) {
+    parts.first.push_back(static_cast<int>(first));
+    parts.label.push_back(labels[first]);
   }
   return parts;
 }

@@ -12,8 +12,7 @@ namespace pcl_mrf_planes {
 struct AdaptiveParameters {
   /// \name Tiles of several sizes
   ///@{
-  int cell = 4;                ///< side of the smallest tile, points: 2, 4 or 8
-  int levels = 4;              ///< tile sides cell, 2 cell, 4 cell, ...; 2 to 8
+  int levels = 4;              ///< tile sides 4, 8, 16, ... points; 2 to 8
   double tile_tolerance = 2.0; ///< rms distance that a tile may have, sigmas, > 0
   double min_fill = 0.75;      ///< share of valid points that a tile needs, 0 to 1
   ///@}
@@ -67,7 +66,7 @@ struct AdaptiveParameters {
       1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
   double step_sigmas = 6.0; ///< depth step over which that price falls, sigmas, > 0
   double min_weight = 0.15; ///< share of the price that is left across a step, 0 to 1
-  int passes = 3;           ///< down the image and up again, 0 to 100000
+  int passes = 2;           ///< down the image and up again, 0 to 100000
   int rounds = 2;           ///< of labelling and refitting, 1 to 10
   ///@}
 };

@@ -84,7 +84,7 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
     timer.finish("refinement");
   }
   if (parameters.fan_parts > 0)
-    dropCurvedFans(points, pyramid[0], noise, parameters, regions, labels);
+    dropCurvedFans(points, noise, parameters, regions, labels);
   timer.finish("refinement");
 
   const std::vector<Plane> planes(regions.planes.begin(), regions.planes.end());

@@ -1,61 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/candidate_field.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
-
-CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
-                               int width, int height)
-{
-  CandidateBlocks out;
-  out.columns = (width + CandidateBlocks::SIDE - 1) / CandidateBlocks::SIDE;
-  out.rows = (height + CandidateBlocks::SIDE - 1) / CandidateBlocks::SIDE;
-  const std::size_t blocks =
-      static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows);
-  out.labels.assign(blocks * CandidateBlocks::SLOTS, 0);
-  out.count.assign(blocks, 1);
-  const int k = CandidateBlocks::SIDE / cells.side;
-  const int reach = 2 * k;
-  std::vector<std::pair<int, int>> found; // distance, region
-  for (int r = 0; r < out.rows; ++r)
-    for (int c = 0; c < out.columns; ++c) {
-      found.clear();
-      for (int j = std::max(0, r * k - reach);
-           j < std::min(cells.rows, (r + 1) * k + reach); ++j)
-        for (int i = std::max(0, c * k - reach);
-             i < std::min(cells.columns, (c + 1) * k + reach); ++i) {
-          const int id = regions.cell_region[cells.at(i, j)];
-          if (id < 0)
-            continue;
-          const int dx = std::max({0, c * k - i, i - (c + 1) * k + 1});
-          const int dy = std::max({0, r * k - j, j - (r + 1) * k + 1});
-          const int d = std::max(dx, dy);
-          auto it = std::find_if(found.begin(), found.end(),
-                                 [&](const auto& f) { return f.second == id; });
-          if (it == found.end())
-            found.emplace_back(d, id);
-          else
-            it->first = std::min(it->first, d);
-        }
-      std::sort(found.begin(), found.end());
-      const std::size_t b =
-          static_cast<std::size_t>(r) * static_cast<std::size_t>(out.columns) +
-          static_cast<std::size_t>(c);
-      const std::size_t n =
-          std::min<std::size_t>(found.size(), CandidateBlocks::SLOTS - 1);
-      for (std::size_t s = 0; s < n; ++s)
-        out.labels[b * CandidateBlocks::SLOTS + s + 1] =
-            static_cast<std::uint16_t>(found[s].second + 1);
-      out.count[b] = static_cast<std::uint8_t>(n + 1);
-    }
-  return out;
-}
 
 namespace {
 
 constexpr int SIDE = CandidateBlocks::SIDE;
+constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
 
 /// Where the costs of a region's label differ from those of another.
 struct LabelScale {
@@ -76,12 +31,62 @@ LabelScale labelScale(const FittedPlane& plane, const NoiseLaw& noise,
       growth * growth * incidenceFactor(plane), bend * bend};
 }
 
-/// Fills one block of a field: all that is asked of its cells is asked once.
-class BlockFiller {
+/// Sum of the squared distances of the points behind the ten sums, equation (3).
+double squaredDistances(const TileSums& s, const LabelScale& plane)
+{
+  const double a = plane.a, b = plane.b, c = plane.c, d = plane.d;
+  return a * (a * s.xx + 2 * (b * s.xy + c * s.xz + d * s.x)) +
+         b * (b * s.yy + 2 * (c * s.yz + d * s.y)) + c * (c * s.zz + 2 * d * s.z) +
+         d * d * s.n;
+}
+
+/// Eight numbers of an array, as one.
+BlockRow::Numbers gather(const std::int16_t* numbers)
+{
+  BlockRow::Numbers v;
+  std::memcpy(&v, numbers, sizeof(v));
+  return v;
+}
+
+/// A row of eight points; those outside the image are not valid.
+struct PointRow {
+  float x[SIDE], y[SIDE], z[SIDE];
+  std::int16_t valid[SIDE]; ///< all bits set, or none
+};
+
+inline void copyPoints(const OrganizedPoints& points, std::size_t i, std::size_t count,
+                       PointRow& row)
+{
+  std::copy_n(&points.x[i], count, row.x);
+  std::copy_n(&points.y[i], count, row.y);
+  std::copy_n(&points.z[i], count, row.z);
+  for (std::size_t k = 0; k < count; ++k)
+    row.valid[k] = static_cast<std::int16_t>(-points.valid[i + k]);
+}
+
+void loadRow(const OrganizedPoints& points, std::size_t i, int count, PointRow& row)
+{
+  if (count == SIDE) { // known to the compiler: no loop is left
+    copyPoints(points, i, SIDE, row);
+    return;
+  }
+  row = {};
+  copyPoints(points, i, static_cast<std::size_t>(count), row);
+}
+
+/// A corner of the image: block, column and row of its first point.
+struct BlockPlace {
+  std::size_t block;
+  int column, row;
+  int columns, rows; ///< points of it that lie in the image
+};
+
+/// Fills a field block by block.
+class FieldBuilder {
 public:
-  BlockFiller(const OrganizedPoints& points, const TileRegions& regions,
-              const TileLevel& cells, const NoiseLaw& noise,
-              const AdaptiveParameters& parameters, CandidateField& field)
+  FieldBuilder(const OrganizedPoints& points, const TileRegions& regions,
+               const TileLevel& cells, const NoiseLaw& noise,
+               const AdaptiveParameters& parameters, CandidateField& field)
   : points_(points)
   , cells_(cells)
   , noise_(noise)
@@ -93,77 +98,207 @@ public:
     units_ = static_cast<float>((INT16_MAX - ROUNDING) / largest_sum);
     for (const FittedPlane& plane : regions.planes)
       scales_.push_back(labelScale(plane, noise, parameters));
+    if (points.depth_measure == DepthMeasure::RANGE)
+      for (std::size_t i = 0; i < points.size(); ++i)
+        ranges_.push_back(points.depth(i));
+    depth_ = ranges_.empty() ? points.z.data() : ranges_.data();
   }
 
-  void fill(int column, int row)
+  void add(const BlockPlace& place)
   {
-    const std::size_t block = field_.blocks.at(column, row);
-    const int bottom = std::min(SIDE, field_.height - row * SIDE);
-    const int right = std::min(SIDE, field_.width - column * SIDE);
-    for (int r = 0; r < bottom; ++r)
-      for (int k = 0; k < right; ++k)
-        fillPoint(block, column * SIDE + k, row * SIDE + r, r,
-                  static_cast<std::size_t>(k));
+    CandidateBlocks& blocks = field_.blocks;
+    const std::size_t count = blocks.count[place.block];
+    field_.number.push_back(CandidateField::SETTLED);
+    if (count < 2)
+      return;
+    if (count == 2 && fitsAsAWhole(place)) {
+      settle(place.block, 1);
+      return;
+    }
+    fillCosts(place);
+    for (std::size_t s = 0; s < count; ++s)
+      if (isSettled(s, count)) {
+        settle(place.block, s);
+        return;
+      }
+    field_.number.back() = field_.active.size();
+    field_.active.push_back(place.block);
+    field_.first.push_back(field_.data.size());
+    for (std::size_t r = 0; r < SIDE; ++r)
+      for (std::size_t s = 0; s < count; ++s)
+        field_.data.push_back({costs_[r][s]});
+    field_.weight.emplace_back();
+    fillWeights(place, field_.weight.back());
   }
 
 private:
-  void fillPoint(std::size_t block, int u, int v, int r, std::size_t k)
+  void settle(std::size_t block, std::size_t slot)
   {
-    const auto width = static_cast<std::size_t>(field_.width);
-    const std::size_t i =
-        static_cast<std::size_t>(v) * width + static_cast<std::size_t>(u);
-    if (points_.valid[i] == 0)
-      return;
-    enterCell(block, u / cells_.side, v / cells_.side);
-    const std::size_t start = field_.dataRow(block, r);
-    const auto none = static_cast<float>(parameters_.none_cost);
-    field_.data[start].v[k] = units(none);
-    for (std::size_t s = 1; s < field_.blocks.count[block]; ++s) {
-      const LabelScale& scale = scales_[field_.blocks.labelsOf(block)[s] - 1u];
-      const float distance = std::abs(scale.a * points_.x[i] + scale.b * points_.y[i] +
-                                      scale.c * points_.z[i] + scale.d);
-      field_.data[start + s].v[k] =
-          units(std::min(distance * per_sigma_[s], MOST * none)); // as (7), in sigmas
-    }
-    const std::size_t weights = CandidateField::weightRow(block, r);
-    if (u + 1 < field_.width && points_.valid[i + 1] != 0)
-      field_.right[weights].v[k] = weight(i, i + 1);
-    if (v + 1 < field_.height && points_.valid[i + width] != 0)
-      field_.down[weights].v[k] = weight(i, i + width);
+    CandidateBlocks& blocks = field_.blocks;
+    blocks.labels[block * SLOTS] = blocks.labels[block * SLOTS + slot];
+    blocks.count[block] = 1;
   }
 
-  /// Noise is known by cell: looks up what all its points share.
-  void enterCell(std::size_t block, int column, int row)
+  /// A block with one plane in which no point can be so far from it that "no plane" were
+  /// better: the sums of squared distances, from the ten sums of its cells, say so.
+  bool fitsAsAWhole(const BlockPlace& place) const
   {
-    const std::size_t cell = cells_.at(column, row);
-    if (cell == cell_ && block == block_)
-      return;
-    cell_ = cell;
-    block_ = block;
-    const TileSums& sums = cells_.sums[cell];
-    const double variance = sums.noise / sums.n;
-    const double range = sums.centroid().norm();
+    const LabelScale& plane = scales_[field_.blocks.labelsOf(place.block)[1] - 1U];
+    const double most = parameters_.none_cost * parameters_.none_cost;
+    for (int r = place.row / CELL; r * CELL < place.row + place.rows; ++r)
+      for (int c = place.column / CELL; c * CELL < place.column + place.columns; ++c) {
+        const TileSums& sums = cells_.sums[cells_.at(c, r)];
+        if (sums.n < 1)
+          continue;
+        const double variance = plane.growth * (sums.noise / sums.n) + plane.bend;
+        if (squaredDistances(sums, plane) > most * variance)
+          return false;
+      }
+    return true;
+  }
+
+  std::size_t pointAt(const BlockPlace& place, int row) const
+  {
+    return static_cast<std::size_t>(place.row + row) *
+               static_cast<std::size_t>(field_.width) +
+           static_cast<std::size_t>(place.column);
+  }
+
+  /// Equation (7) in sigmas, for all candidates of a block.
+  void fillCosts(const BlockPlace& place)
+  {
+    const std::size_t count = field_.blocks.count[place.block];
+    const std::uint16_t* labels = field_.blocks.labelsOf(place.block);
+    const auto none = static_cast<float>(parameters_.none_cost);
+    for (int r = 0; r < SIDE; ++r) {
+      const auto row = static_cast<std::size_t>(r);
+      if (r < place.rows)
+        loadRow(points_, pointAt(place, r), place.columns, points_row_);
+      else
+        points_row_ = {};
+      if (r % CELL == 0 && r < place.rows)
+        lookUpNoise(place, place.row + r);
+      valid_[row] = gather(points_row_.valid);
+      costs_[row][0] = units(none) & valid_[row];
+      for (std::size_t s = 1; s < count; ++s)
+        costs_[row][s] =
+            costs(scales_[labels[s] - 1U], per_sigma_[s], MOST * none) & valid_[row];
+    }
+  }
+
+  BlockRow::Numbers costs(const LabelScale& plane,
+                          const std::array<float, SIDE>& per_sigma, float most) const
+  {
+    const PointRow& p = points_row_;
+    const float a = plane.a, b = plane.b, c = plane.c, d = plane.d, scale = units_;
+    std::int16_t cost[SIDE];
+    for (std::size_t k = 0; k < SIDE; ++k) {
+      const float distance = std::abs(a * p.x[k] + b * p.y[k] + c * p.z[k] + d);
+      const float sigmas = distance * per_sigma[k];
+      cost[k] = static_cast<std::int16_t>(
+          static_cast<std::int32_t>((sigmas < most ? sigmas : most) * scale + 0.5f));
+    }
+    return gather(cost);
+  }
+
+  /// Noise is known by cell: looks up what all points of a row share.
+  void lookUpNoise(const BlockPlace& place, int row)
+  {
+    for (int half = 0; half < SIDE / CELL; ++half) {
+      const int column = std::min(place.column / CELL + half, cells_.columns - 1);
+      const TileSums& sums = cells_.sums[cells_.at(column, row / CELL)];
+      const auto variance = static_cast<float>(sums.n > 0 ? sums.noise / sums.n : 1.0);
+      for (std::size_t s = 1; s < field_.blocks.count[place.block]; ++s) {
+        const LabelScale& scale = scales_[field_.blocks.labelsOf(place.block)[s] - 1U];
+        const float per_sigma =
+            1.0f / std::sqrt(static_cast<float>(scale.growth) * variance +
+                             static_cast<float>(scale.bend));
+        std::fill_n(&per_sigma_[s][static_cast<std::size_t>(half * CELL)], CELL,
+                    per_sigma);
+      }
+    }
+  }
+
+  /// A label that is better than all others everywhere by the price of a change: within
+  /// the block no border pays, and around it less than that is saved.
+  bool isSettled(std::size_t label, std::size_t count) const
+  {
+    using Words __attribute__((vector_size(16))) = std::uint64_t;
+    const BlockRow::Numbers margin =
+        units(static_cast<float>(parameters_.label_change)) + BlockRow::Numbers{};
+    for (std::size_t r = 0; r < SIDE; ++r) {
+      const BlockRow::Numbers limit = costs_[r][label] + margin;
+      BlockRow::Numbers better = {};
+      for (std::size_t s = 0; s < count; ++s)
+        better |= s != label ? limit > costs_[r][s] : BlockRow::Numbers{};
+      const Words any = reinterpret_cast<Words>(better & valid_[r]);
+      if ((any[0] | any[1]) != 0)
+        return false;
+    }
+    return true;
+  }
+
+  void fillWeights(const BlockPlace& place, BlockWeights& out)
+  {
+    const double range = rangeOf(place);
     per_step_ = static_cast<float>(
         1.0 / (parameters_.step_sigmas * noise_.small(range) + STEP_SHARE * range));
-    for (std::size_t s = 1; s < field_.blocks.count[block]; ++s) {
-      const LabelScale& scale = scales_[field_.blocks.labelsOf(block)[s] - 1u];
-      per_sigma_[s] =
-          static_cast<float>(1.0 / std::sqrt(scale.growth * variance + scale.bend));
+    const auto width = static_cast<std::size_t>(field_.width);
+    const bool right_edge = place.column + place.columns == field_.width;
+    for (int r = 0; r < place.rows; ++r) {
+      const std::size_t i = pointAt(place, r);
+      const auto row = static_cast<std::size_t>(r);
+      out.right[row] = edges(i, i + 1, place.columns - (right_edge ? 1 : 0));
+      if (place.row + r + 1 < field_.height)
+        out.down[row] = edges(i, i + width, place.columns);
+      if (place.column > 0)
+        out.left.v[row] = edges(i - 1, i, 1).v[0];
+    }
+    if (place.row > 0) {
+      const std::size_t i = pointAt(place, 0);
+      out.above = edges(i - width, i, place.columns);
     }
   }
 
-  /// Potts weight that falls with the depth step, down to a share of itself.
-  std::int16_t weight(std::size_t i, std::size_t j) const
+  double rangeOf(const BlockPlace& place) const
   {
-    const float step = (points_.depth(i) - points_.depth(j)) * per_step_;
-    const float share = std::max(static_cast<float>(parameters_.min_weight),
-                                 1.0f / (1.0f + step * step));
-    return units(static_cast<float>(parameters_.label_change) * share);
+    TileSums sums;
+    for (int r = place.row / CELL; r * CELL < place.row + place.rows; ++r)
+      for (int c = place.column / CELL; c * CELL < place.column + place.columns; ++c)
+        sums += cells_.sums[cells_.at(c, r)];
+    return sums.n > 0 ? sums.centroid().norm() : 1.0;
+  }
+
+  /// Potts weights that fall with the depth step, down to a share of themselves: between
+  /// points i and j and those that follow them.
+  BlockRow edges(std::size_t i, std::size_t j, int count) const
+  {
+    std::int16_t weight[SIDE] = {};
+    if (count == SIDE) // known to the compiler: no loop is left
+      fillEdges(i, j, SIDE, weight);
+    else
+      fillEdges(i, j, static_cast<std::size_t>(count), weight);
+    return {gather(weight)};
+  }
+
+  void fillEdges(std::size_t i, std::size_t j, std::size_t count,
+                 std::int16_t* weight) const
+  {
+    const auto least = static_cast<float>(parameters_.min_weight);
+    const float price = static_cast<float>(parameters_.label_change) * units_;
+    for (std::size_t k = 0; k < count; ++k) {
+      const float step = (depth_[i + k] - depth_[j + k]) * per_step_;
+      const float falling = 1.0f / (1.0f + step * step);
+      const float share = falling > least ? falling : least;
+      const int edge = points_.valid[i + k] & points_.valid[j + k];
+      weight[k] = static_cast<std::int16_t>(
+          static_cast<std::int32_t>(price * share + 0.5f) & -edge);
+    }
   }
 
   std::int16_t units(float cost) const
   {
-    return static_cast<std::int16_t>(std::lrintf(cost * units_));
+    return static_cast<std::int16_t>(cost * units_ + 0.5f);
   }
 
   static constexpr int ROUNDING = 5;  ///< terms of a sum, each rounded up at worst
@@ -176,30 +311,16 @@ private:
   const AdaptiveParameters& parameters_;
   CandidateField& field_;
   std::vector<LabelScale> scales_;
-  std::size_t cell_ = SIZE_MAX;
-  std::size_t block_ = SIZE_MAX;
+  std::vector<float> ranges_;
+  const float* depth_ = nullptr;
   float units_ = 1.0f; ///< in one sigma
   float per_step_ = 0.0f;
-  std::array<float, CandidateBlocks::SLOTS> per_sigma_ = {};
+  std::array<std::array<float, SIDE>, SLOTS> per_sigma_ = {};
+  // of the block at hand
+  PointRow points_row_;
+  std::array<std::array<BlockRow::Numbers, SLOTS>, SIDE> costs_;
+  std::array<BlockRow::Numbers, SIDE> valid_;
 };
-
-/// Rows of the image one after another, as the propagation goes through them.
-void layOutRows(CandidateField& field)
-{
-  const CandidateBlocks& blocks = field.blocks;
-  std::size_t start = 0;
-  for (int row = 0; row < blocks.rows; ++row) {
-    std::size_t length = 0;
-    for (int column = 0; column < blocks.columns; ++column) {
-      field.first.push_back(start + length);
-      length += blocks.count[blocks.at(column, row)];
-    }
-    field.stride.insert(field.stride.end(), static_cast<std::size_t>(blocks.columns),
-                        length);
-    start += length * static_cast<std::size_t>(SIDE);
-  }
-  field.data.resize(start);
-}
 
 } // namespace
 
@@ -211,15 +332,12 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
   field.width = points.width;
   field.height = points.height;
   field.blocks = findCandidates(regions, cells, field.width, field.height);
-  layOutRows(field);
-  const std::size_t weights =
-      field.blocks.count.size() * static_cast<std::size_t>(SIDE);
-  field.right.resize(weights);
-  field.down.resize(weights);
-  BlockFiller filler(points, regions, cells, noise, parameters, field);
+  FieldBuilder builder(points, regions, cells, noise, parameters, field);
   for (int row = 0; row < field.blocks.rows; ++row)
     for (int column = 0; column < field.blocks.columns; ++column)
-      filler.fill(column, row);
+      builder.add({field.blocks.at(column, row), column * SIDE, row * SIDE,
+                   std::min(SIDE, field.width - column * SIDE),
+                   std::min(SIDE, field.height - row * SIDE)});
   return field;
 }
 

@@ -19,7 +19,7 @@ struct CandidateBlocks {
   int columns = 0;
   int rows = 0;
   std::vector<std::uint16_t> labels; ///< SLOTS a block
-  std::vector<std::uint8_t> count;   ///< labels in use, "no plane" among them
+  std::vector<std::uint8_t> count;   ///< labels in use; 1: the block is settled
 
   std::size_t at(int column, int row) const
   {
@@ -32,6 +32,8 @@ struct CandidateBlocks {
   }
 };
 
+/// "No plane" and the planes whose cells lie at most 16 points away from a block, the
+/// nearest first. O(points)
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
                                int width, int height);
 
@@ -47,26 +49,36 @@ inline BlockRow::Numbers least(BlockRow::Numbers a, BlockRow::Numbers b)
   return a < b ? a : b;
 }
 
-/// Data costs and Potts weights of the random field, block by block, in whole units so
-/// small that the largest sum, a data cost and four messages, just stays below 2^15.
+/// Potts weights of the edges of a block.
+struct BlockWeights {
+  static constexpr std::size_t SIDE = CandidateBlocks::SIDE;
+  std::array<BlockRow, SIDE> right; ///< by row: to the point on the right; 0: no edge
+  std::array<BlockRow, SIDE> down;  ///< by row: to the point below
+  BlockRow above;                   ///< from the first row to the points above
+  BlockRow left;                    ///< from the first column to the left, by row
+};
+
+/// Data costs and Potts weights of the random field, in whole units so small that the
+/// largest sum, a data cost and four messages, just stays below 2^15.
+///
+/// Only blocks with a choice have costs. A block is settled, with one label left, where
+/// that label is better than any other at every point by more than what neighbours of any
+/// labels could make up for.
 struct CandidateField {
+  static constexpr std::size_t SETTLED = SIZE_MAX;
   int width = 0;
   int height = 0;
   CandidateBlocks blocks;
-  std::vector<std::size_t> first;  ///< where the first row of each block is in data
-  std::vector<std::size_t> stride; ///< from there to the block's next row
-  std::vector<BlockRow> data;      ///< by row of the image, block and slot
-  std::vector<BlockRow> right; ///< weight to the right: SIDE rows a block; 0: no edge
-  std::vector<BlockRow> down;  ///< weight to the point below
+  std::vector<std::size_t> active;  ///< blocks with a choice, row by row
+  std::vector<std::size_t> number;  ///< of each block in active, or SETTLED
+  std::vector<std::size_t> first;   ///< where each active block's costs are in data
+  std::vector<BlockRow> data;       ///< by active block, row and slot
+  std::vector<BlockWeights> weight; ///< by active block
 
-  std::size_t dataRow(std::size_t block, int row) const
+  /// Costs of a row of an active block, slot by slot.
+  std::size_t dataRow(std::size_t active_block, std::size_t row) const
   {
-    return first[block] + static_cast<std::size_t>(row) * stride[block];
-  }
-  static std::size_t weightRow(std::size_t block, int row)
-  {
-    return block * static_cast<std::size_t>(CandidateBlocks::SIDE) +
-           static_cast<std::size_t>(row);
+    return first[active_block] + row * blocks.count[active[active_block]];
   }
 };
 
@@ -79,7 +91,7 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
 /// Each of the passes goes down the image and up again, a row at a time: messages to the next
 /// row are used at once, so they cross the image in one pass; those within a row move by
 /// one point a pass. A Potts message needs the least belief only: O(sites * labels of a
-/// block) an iteration.
+/// block) an iteration. Settled blocks send what they are sure of, once.
 std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
                                             const OrganizedPoints& points, int passes);
 

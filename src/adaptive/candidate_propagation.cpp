@@ -3,37 +3,64 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
 
 namespace {
 
-constexpr int SIDE = CandidateBlocks::SIDE;
+constexpr std::size_t SIDE = CandidateBlocks::SIDE;
 constexpr std::size_t LAST = SIDE - 1;
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
 constexpr std::uint8_t ABSENT = 255; ///< the neighbour has no such label
+constexpr std::size_t SETTLED = CandidateField::SETTLED;
 
-enum Side { LEFT, RIGHT, ABOVE, BELOW, SIDES };
+enum Side : std::size_t { LEFT, RIGHT, ABOVE, BELOW, SIDES };
 
-using Beliefs = std::array<BlockRow, SLOTS>;
+constexpr Side opposite(Side side) { return static_cast<Side>(side ^ 1U); }
+
+using Numbers = BlockRow::Numbers;
+using Beliefs = std::array<Numbers, SLOTS>; // not initialized: most are not in use
 using SlotMap = std::array<std::uint8_t, SLOTS>;
 
 /// What a row of a block has received for one label.
 struct Messages {
-  BlockRow::Numbers from[SIDES] = {}; ///< by the side that the sender is at
+  Numbers from[SIDES] = {}; ///< by the side that the sender is at
 };
 
+/// The eight numbers as two words, the first number lowest: what moves from word to word is
+/// one shift away, without an instruction that only newer machines have.
+using Words __attribute__((vector_size(16))) = std::uint64_t;
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the first number is the lowest");
+constexpr int NUMBER = 16; ///< bits
+constexpr int REST = 48;
+
 /// Every number moves to the right by one.
-BlockRow::Numbers shiftRight(BlockRow::Numbers v, std::int16_t first)
+Numbers shiftRight(Numbers v, std::int16_t first)
 {
-  return BlockRow::Numbers{first, v[0], v[1], v[2], v[3], v[4], v[5], v[6]};
+  const Words words = reinterpret_cast<Words>(v);
+  const Words carry = words >> REST;
+  const Words in = {static_cast<std::uint16_t>(first), carry[0]};
+  return reinterpret_cast<Numbers>((words << NUMBER) | in);
 }
 
 /// Every number moves to the left by one.
-BlockRow::Numbers shiftLeft(BlockRow::Numbers v, std::int16_t last)
+Numbers shiftLeft(Numbers v, std::int16_t last)
 {
-  return BlockRow::Numbers{v[1], v[2], v[3], v[4], v[5], v[6], v[7], last};
+  const Words words = reinterpret_cast<Words>(v);
+  const Words carry = words << REST;
+  const Words in = {carry[1],
+                    static_cast<std::uint64_t>(static_cast<std::uint16_t>(last)) << REST};
+  return reinterpret_cast<Numbers>((words >> NUMBER) | in);
 }
+
+/// An active block among its neighbours.
+struct Place {
+  std::size_t count;           ///< labels
+  std::size_t first;           ///< costs of its first row
+  std::size_t neighbour[SIDES]; ///< active block on each side, or SETTLED
+  SlotMap slot[SIDES]; ///< where that neighbour's labels are among those of this block
+};
 
 /// Passes over the image, with the messages that every point has received.
 class Passes {
@@ -41,69 +68,65 @@ public:
   explicit Passes(const CandidateField& field)
   : f_(field)
   , blocks_(field.blocks)
+  , received_(field.data.size())
+  , places_(field.active.size())
+  , band_(static_cast<std::size_t>(field.blocks.rows) + 1, 0)
   {
-    received_.resize(field.data.size());
-    findSlotMaps();
-    for (std::size_t block = 0; block < blocks_.count.size(); ++block)
-      settled_.push_back(isSettled(block));
+    for (std::size_t a = 0; a < places_.size(); ++a)
+      settleIn(a);
+    for (std::size_t row = 1; row < band_.size(); ++row)
+      band_[row] += band_[row - 1];
   }
 
-  /// One pass: messages within each row, and on to the next row. Settled blocks send their
-  /// messages in the first two passes; later ones would not differ by much.
+  /// One pass: messages within each row, and on to the next row.
   void run(bool downwards)
   {
-    ++passes_;
     for (int k = 0; k < f_.height; ++k) {
       const int y = downwards ? k : f_.height - 1 - k;
-      for (int column = 0; column < blocks_.columns; ++column)
-        if (passes_ <= 2 || !settled_[blocks_.at(column, y / SIDE)])
-          send(column, y / SIDE, y % SIDE, downwards ? BELOW : ABOVE);
+      const std::size_t band = static_cast<std::size_t>(y) / SIDE;
+      for (std::size_t a = band_[band]; a < band_[band + 1]; ++a)
+        send(places_[a], a, static_cast<std::size_t>(y) % SIDE,
+             downwards ? BELOW : ABOVE);
     }
   }
 
-  /// Data costs plus all messages of a row of a block.
-  void beliefs(std::size_t block, int row, Beliefs& total) const
+  /// Data costs plus all messages of a row of an active block.
+  void beliefs(std::size_t start, std::size_t count, Beliefs& total) const
   {
-    const std::size_t start = f_.dataRow(block, row);
-    for (std::size_t s = 0; s < blocks_.count[block]; ++s)
-      total[s].v = f_.data[start + s].v + received_[start + s].from[LEFT] +
-                   received_[start + s].from[RIGHT] + received_[start + s].from[ABOVE] +
-                   received_[start + s].from[BELOW];
+    std::size_t s = 0;
+    do { // an active block has a label, as the compiler cannot know
+      const Messages& m = received_[start + s];
+      total[s] = f_.data[start + s].v + (m.from[LEFT] + m.from[RIGHT]) +
+                   (m.from[ABOVE] + m.from[BELOW]);
+    } while (++s < count);
   }
 
 private:
-  /// One plane only, and every point at most half as far from it as "no plane" allows.
-  bool isSettled(std::size_t block) const
+  /// Finds the neighbours of a block, and what the settled ones among them say.
+  void settleIn(std::size_t a)
   {
-    if (blocks_.count[block] != 2)
-      return blocks_.count[block] < 2;
-    for (int row = 0; row < SIDE; ++row) {
-      const BlockRow* slots = &f_.data[f_.dataRow(block, row)];
-      for (int k = 0; k < SIDE; ++k)
-        if (2 * slots[1].v[k] > slots[0].v[k])
-          return false;
-    }
-    return true;
-  }
-
-  /// For each block and each of its neighbours: where the neighbour finds its labels.
-  void findSlotMaps()
-  {
+    const std::size_t block = f_.active[a];
+    const int column = static_cast<int>(block % static_cast<std::size_t>(blocks_.columns));
+    const int row = static_cast<int>(block / static_cast<std::size_t>(blocks_.columns));
+    ++band_[static_cast<std::size_t>(row) + 1];
+    Place& place = places_[a];
+    place.count = blocks_.count[block];
+    place.first = f_.first[a];
     const int dx[SIDES] = {-1, 1, 0, 0};
     const int dy[SIDES] = {0, 0, -1, 1};
-    for (auto& maps : slot_of_)
-      maps.resize(blocks_.count.size());
-    for (int row = 0; row < blocks_.rows; ++row)
-      for (int column = 0; column < blocks_.columns; ++column)
-        for (int side = 0; side < SIDES; ++side) {
-          const int other_column = column + dx[side];
-          const int other_row = row + dy[side];
-          if (other_column < 0 || other_column >= blocks_.columns || other_row < 0 ||
-              other_row >= blocks_.rows)
-            continue;
-          const std::size_t from = blocks_.at(column, row);
-          slot_of_[side][from] = slotMap(from, blocks_.at(other_column, other_row));
-        }
+    for (const Side side : {LEFT, RIGHT, ABOVE, BELOW}) {
+      place.neighbour[side] = SETTLED;
+      const int c = column + dx[side];
+      const int r = row + dy[side];
+      if (c < 0 || c >= blocks_.columns || r < 0 || r >= blocks_.rows)
+        continue;
+      const std::size_t other = blocks_.at(c, r);
+      place.neighbour[side] = f_.number[other];
+      if (f_.number[other] == SETTLED)
+        hear(place, f_.weight[a], block, side, blocks_.labelsOf(other)[0]);
+      else
+        place.slot[side] = slotMap(block, other);
+    }
   }
 
   SlotMap slotMap(std::size_t from, std::size_t to) const
@@ -117,98 +140,145 @@ private:
     return map;
   }
 
+  /// The messages of a settled neighbour: any label but its own costs a change.
+  void hear(const Place& place, const BlockWeights& weight, std::size_t block, Side side,
+            std::uint16_t label)
+  {
+    for (std::size_t s = 0; s < place.count; ++s) {
+      if (blocks_.labelsOf(block)[s] == label)
+        continue;
+      if (side == ABOVE)
+        received_[place.first + s].from[ABOVE] = weight.above.v;
+      else if (side == BELOW)
+        received_[place.first + LAST * place.count + s].from[BELOW] =
+            weight.down[LAST].v;
+      else
+        for (std::size_t r = 0; r < SIDE; ++r)
+          received_[place.first + r * place.count + s].from[side][side == LEFT ? 0 : LAST] =
+              side == LEFT ? weight.left.v[r] : weight.right[r].v[LAST];
+    }
+  }
+
   /// Potts messages: what the sender knows but for what the receiver told it, less its
   /// least value, and never more than the price of a change.
   void messages(const Beliefs& total, std::size_t count, std::size_t start, Side to,
-                const BlockRow& weight, Beliefs& out) const
+                Numbers weight, Beliefs& out) const
   {
-    BlockRow::Numbers smallest = total[0].v - received_[start].from[to];
-    for (std::size_t s = 0; s < count; ++s) {
-      out[s].v = total[s].v - received_[start + s].from[to];
-      smallest = least(smallest, out[s].v);
+    Numbers smallest = total[0] - received_[start].from[to];
+    out[0] = smallest;
+    for (std::size_t s = 1; s < count; ++s) {
+      out[s] = total[s] - received_[start + s].from[to];
+      smallest = least(smallest, out[s]);
     }
     for (std::size_t s = 0; s < count; ++s)
-      out[s].v = least(out[s].v - smallest, weight.v);
+      out[s] = least(out[s] - smallest, weight);
   }
 
-  void send(int column, int block_row, int row, Side next_row)
+  void send(const Place& place, std::size_t a, std::size_t row, Side next_row)
   {
-    const std::size_t block = blocks_.at(column, block_row);
-    const std::size_t count = blocks_.count[block];
-    if (count < 2) // nothing to choose from
-      return;
-    const std::size_t start = f_.dataRow(block, row);
-    const BlockRow& right = f_.right[CandidateField::weightRow(block, row)];
-    BlockRow left; // the weight to the left is the left point's weight to the right
-    left.v = shiftRight(
-        right.v, column > 0
-                     ? f_.right[CandidateField::weightRow(block - 1, row)].v[LAST]
-                     : std::int16_t{0});
+    const std::size_t count = place.count;
+    const std::size_t start = place.first + row * count;
+    const BlockWeights& weight = f_.weight[a];
+    const Numbers right = weight.right[row].v;
+    const Numbers left = shiftRight(right, weight.left.v[row]);
 
     // All messages from the same beliefs, before any of them is written: the row is its own
     // neighbour.
     Beliefs total;
     Beliefs rightward;
     Beliefs leftward;
-    Beliefs onward;
-    beliefs(block, row, total);
+    beliefs(start, count, total);
     messages(total, count, start, RIGHT, right, rightward);
     messages(total, count, start, LEFT, left, leftward);
-    sendToRow(column, block_row, row, next_row, total, onward);
+    sendToRow(place, weight, row, next_row, total);
 
     for (std::size_t s = 0; s < count; ++s) {
       auto& from = received_[start + s].from;
-      from[LEFT] = shiftRight(rightward[s].v, from[LEFT][0]);
-      from[RIGHT] = shiftLeft(leftward[s].v, from[RIGHT][LAST]);
+      from[LEFT] = shiftRight(rightward[s], from[LEFT][0]);
+      from[RIGHT] = shiftLeft(leftward[s], from[RIGHT][LAST]);
     }
-    if (column + 1 < blocks_.columns)
-      sendAcross(block, block + 1, row, RIGHT, right.v[LAST], rightward);
-    if (column > 0)
-      sendAcross(block, block - 1, row, LEFT, left.v[0], leftward);
+    sendAcross(place, row, RIGHT, right[LAST], rightward);
+    sendAcross(place, row, LEFT, left[0], leftward);
   }
 
   /// The message of the outermost point of a row to the block beside it.
-  void sendAcross(std::size_t block, std::size_t target, int row, Side to,
-                  std::int16_t weight, const Beliefs& out)
+  void sendAcross(const Place& place, std::size_t row, Side to, std::int16_t weight,
+                  const Beliefs& out)
   {
+    if (place.neighbour[to] == SETTLED)
+      return;
+    const Place& target = places_[place.neighbour[to]];
     const std::size_t from = to == RIGHT ? LAST : 0;
-    const std::size_t start = f_.dataRow(target, row);
-    const SlotMap& map = slot_of_[to][block];
-    for (std::size_t t = 0; t < blocks_.count[target]; ++t)
-      received_[start + t].from[to ^ 1][LAST - from] =
-          map[t] == ABSENT ? weight : out[map[t]].v[from];
+    const std::size_t start = target.first + row * target.count;
+    const SlotMap& map = place.slot[to];
+    for (std::size_t t = 0; t < target.count; ++t)
+      received_[start + t].from[opposite(to)][LAST - from] =
+          map[t] == ABSENT ? weight : out[map[t]][from];
   }
 
   /// Messages to the row above or below, in this block or the next.
-  void sendToRow(int column, int block_row, int row, Side to, const Beliefs& total,
-                 Beliefs& out)
+  void sendToRow(const Place& place, const BlockWeights& weight, std::size_t row,
+                 Side to, const Beliefs& total)
   {
-    const int step = to == BELOW ? 1 : -1;
-    const int y = block_row * SIDE + row + step;
-    if (y < 0 || y >= f_.height)
+    Beliefs out;
+    const std::size_t start = place.first + row * place.count;
+    const bool leaves = row == (to == BELOW ? LAST : 0);
+    if (!leaves) {
+      const std::size_t next = to == BELOW ? row + 1 : row - 1;
+      messages(total, place.count, start, to, weight.down[std::min(row, next)].v, out);
+      for (std::size_t s = 0; s < place.count; ++s)
+        received_[place.first + next * place.count + s].from[opposite(to)] = out[s];
       return;
-    const std::size_t block = blocks_.at(column, block_row);
-    const std::size_t target = blocks_.at(column, y / SIDE);
-    const std::size_t upper = to == BELOW ? block : target;
-    const int upper_row = to == BELOW ? row : y % SIDE;
-    const BlockRow& weight = f_.down[CandidateField::weightRow(upper, upper_row)];
-    messages(total, blocks_.count[block], f_.dataRow(block, row), to, weight, out);
-    const std::size_t start = f_.dataRow(target, y % SIDE);
-    const SlotMap& map = slot_of_[to][block];
-    for (std::size_t t = 0; t < blocks_.count[target]; ++t)
-      if (target == block)
-        received_[start + t].from[to ^ 1] = out[t].v;
-      else
-        received_[start + t].from[to ^ 1] = map[t] == ABSENT ? weight.v : out[map[t]].v;
+    }
+    if (place.neighbour[to] == SETTLED)
+      return;
+    const Numbers price = to == BELOW ? weight.down[LAST].v : weight.above.v;
+    messages(total, place.count, start, to, price, out);
+    const Place& target = places_[place.neighbour[to]];
+    const std::size_t next = target.first + (LAST - row) * target.count;
+    const SlotMap& map = place.slot[to];
+    for (std::size_t t = 0; t < target.count; ++t)
+      received_[next + t].from[opposite(to)] =
+          map[t] == ABSENT ? price : out[map[t]];
   }
 
   const CandidateField& f_;
   const CandidateBlocks& blocks_;
   std::vector<Messages> received_;
-  std::vector<std::uint8_t> settled_;
-  int passes_ = 0;
-  std::vector<SlotMap> slot_of_[SIDES]; ///< sender's slot of each of the receiver's
+  std::vector<Place> places_;     ///< of the active blocks
+  std::vector<std::size_t> band_; ///< first active block of each row of blocks
 };
+
+/// Labels of a row of an active block: those of the least beliefs.
+Numbers leastLabels(const Beliefs& total, std::size_t count, const std::uint16_t* labels)
+{
+  Numbers best = total[0];
+  Numbers label = static_cast<std::int16_t>(labels[0]) + Numbers{};
+  for (std::size_t s = 1; s < count; ++s) {
+    const Numbers better = total[s] < best;
+    const Numbers other = static_cast<std::int16_t>(labels[s]) + Numbers{};
+    best = least(best, total[s]);
+    label = (better & other) | (~better & label);
+  }
+  return label;
+}
+
+/// Writes one label for all valid points of a row of a block.
+void writeRow(std::uint16_t label, const std::uint8_t* valid, std::size_t count,
+              std::uint16_t* out)
+{
+  for (std::size_t k = 0; k < count; ++k)
+    out[k] = static_cast<std::uint16_t>(label * valid[k]);
+}
+
+void writeRow(Numbers label, const std::uint8_t* valid, std::size_t count,
+              std::uint16_t* out)
+{
+  std::uint16_t each[SIDE];
+  std::memcpy(each, &label, sizeof(each));
+  for (std::size_t k = 0; k < count; ++k)
+    out[k] = static_cast<std::uint16_t>(each[k] * valid[k]);
+}
 
 } // namespace
 
@@ -220,25 +290,26 @@ std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
     propagation.run(true);
     propagation.run(false);
   }
-  std::vector<std::uint16_t> labels(points.size(), 0);
+  std::vector<std::uint16_t> labels(points.size());
   Beliefs total;
+  const auto width = static_cast<std::size_t>(field.width);
   for (int y = 0; y < field.height; ++y)
     for (int column = 0; column < field.blocks.columns; ++column) {
-      const std::size_t block = field.blocks.at(column, y / SIDE);
-      propagation.beliefs(block, y % SIDE, total);
-      for (int k = 0; k < SIDE && column * SIDE + k < field.width; ++k) {
-        const std::size_t i =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(field.width) +
-            static_cast<std::size_t>(column * SIDE + k);
-        if (points.valid[i] == 0)
-          continue;
-        std::size_t best = 0;
-        for (std::size_t s = 1; s < field.blocks.count[block]; ++s)
-          if (total[s].v[static_cast<std::size_t>(k)] <
-              total[best].v[static_cast<std::size_t>(k)])
-            best = s;
-        labels[i] = field.blocks.labelsOf(block)[best];
+      const std::size_t block = field.blocks.at(column, y / static_cast<int>(SIDE));
+      const std::uint16_t* names = field.blocks.labelsOf(block);
+      const std::size_t x = static_cast<std::size_t>(column) * SIDE;
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      const std::size_t count = std::min(SIDE, width - x);
+      const std::size_t a = field.number[block];
+      if (a == SETTLED) {
+        writeRow(names[0], &points.valid[i], count, &labels[i]);
+        continue;
       }
+      const std::size_t labels_here = field.blocks.count[block];
+      propagation.beliefs(field.dataRow(a, static_cast<std::size_t>(y) % SIDE),
+                          labels_here, total);
+      writeRow(leastLabels(total, labels_here, names), &points.valid[i], count,
+               &labels[i]);
     }
   return labels;
 }

@@ -130,7 +130,7 @@ TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points
         continue;
       const double c = cost(a, b);
       if (c >= 0 && c <= limit)
-        pairs.push_back({c, a, b, 0, 0});
+        pairs.push_back({c, a, b, 0});
     }
   std::sort(pairs.begin(), pairs.end(),
             [](const Candidate& p, const Candidate& q) { return q < p; });

@@ -69,7 +69,7 @@ void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
 
 double NoiseLaw::growthOf(double n) const
 {
-  const double l = std::max(0.0, 0.5 * std::log2(std::max(n, 1.0)) - std::log2(cell));
+  const double l = std::max(0.0, 0.5 * std::log2(std::max(n, 1.0)) - std::log2(CELL));
   const auto i = static_cast<std::size_t>(l);
   const std::size_t last = growth.size() - 1;
   const double t = l - static_cast<double>(i);
@@ -83,30 +83,38 @@ double NoiseLaw::growthOf(double n) const
 
 namespace {
 
-/// Level whose tiles the noise is read from: of 2 cells.
-std::size_t baseLevel(const std::vector<TileLevel>& pyramid)
+/// Level whose tiles the noise is read from.
+constexpr std::size_t BASE = 1;
+
+/// Whether a tile is within the noise as far as it is known.
+bool isFlat(const FittedPlane& plane, double known_growth, const NoiseLaw& noise)
 {
-  return pyramid.size() > 1 ? 1 : 0;
+  return plane.n > 3 &&
+         unbiasedRms(plane) <
+             2 * known_growth * noise.small(plane.centroid.norm()) + 1e-12;
 }
 
 /// Growth of the rms distance from a tile's quarters to the tile: one ratio for each tile
-/// whose quarters are all within the noise as far as it is known.
+/// whose quarters are all within the noise.
 std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
-                                 double known_growth, const NoiseLaw& noise)
+                                 double known_growth, const NoiseLaw& noise,
+                                 const AdaptiveParameters& parameters)
 {
+  // The smallest tiles have no planes yet; some of them tell enough.
+  const int step = below.planes.empty() ? 3 : 1;
   std::vector<double> ratios;
-  for (int r = 0; r < level.rows; ++r)
-    for (int c = 0; c < level.columns; ++c) {
+  for (int r = 0; r < level.rows; r += step)
+    for (int c = 0; c < level.columns; c += step) {
       const FittedPlane& parent = level.planes[level.at(c, r)];
       if (parent.n < 4 || 2 * r + 1 >= below.rows || 2 * c + 1 >= below.columns)
         continue;
       double variance = 0;
       bool good = true;
       for (int k = 0; k < 4 && good; ++k) {
-        const FittedPlane& child = below.planes[below.at(2 * c + k % 2, 2 * r + k / 2)];
-        good = child.n > 3 &&
-               unbiasedRms(child) <
-                   2 * known_growth * noise.small(child.centroid.norm()) + 1e-12;
+        const std::size_t at = below.at(2 * c + k % 2, 2 * r + k / 2);
+        const FittedPlane child =
+            below.planes.empty() ? fitTile(below, at, parameters) : below.planes[at];
+        good = isFlat(child, known_growth, noise);
         variance += good ? unbiasedRms(child) * unbiasedRms(child) / 4 : 0;
       }
       if (good)
@@ -122,71 +130,81 @@ void estimateGrowth(const std::vector<TileLevel>& pyramid,
                     const AdaptiveParameters& parameters, NoiseLaw& noise)
 {
   constexpr std::size_t FEWEST = 12; // ratios for a percentile
-  const std::size_t base = baseLevel(pyramid);
   std::vector<double> step(pyramid.size(), 1.0);
   double cumulated = 1;
   for (std::size_t l = 1; l < pyramid.size(); ++l) {
     const std::vector<double> ratios =
-        growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise);
+        growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise, parameters);
     if (ratios.size() >= FEWEST)
       step[l] = std::clamp(percentile(ratios, parameters.growth_percentile), 1.0,
                            parameters.max_growth);
-    if (l > base)
+    if (l > BASE)
       cumulated *= step[l];
   }
   noise.growth.assign(pyramid.size(), 1.0);
-  for (std::size_t l = base + 1; l < pyramid.size(); ++l)
+  for (std::size_t l = BASE + 1; l < pyramid.size(); ++l)
     noise.growth[l] = noise.growth[l - 1] * step[l];
-  for (std::size_t l = base; l-- > 0;)
+  for (std::size_t l = BASE; l-- > 0;)
     noise.growth[l] = noise.growth[l + 1] / step[l + 1];
   // Correlated noise keeps growing beyond the largest tile; white noise does not.
   const double correlated = std::clamp((noise.growth.back() - 1.05) / 0.25, 0.0, 1.0);
   noise.region = noise.growth.back() * (1 + correlated * (parameters.long_range - 1));
 }
 
-/// Noise around each tile of a level over that of the whole cloud: a low percentile of the
-/// tiles near, so that edges do not count.
-std::vector<double> localFactors(const TileLevel& level, const NoiseLaw& noise,
+/// Noise of the points of each tile over that of the whole cloud; 0 where it has no plane.
+std::vector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise)
+{
+  std::vector<double> ratios(level.planes.size(), 0.0);
+  for (std::size_t i = 0; i < ratios.size(); ++i)
+    if (const FittedPlane& p = level.planes[i]; p.n > 3)
+      ratios[i] = unbiasedRms(p) / noise.small(p.centroid.norm());
+  return ratios;
+}
+
+/// Noise around each square of 2x2 tiles of a level over that of the whole cloud: a low
+/// percentile of the tiles near, so that edges do not count.
+std::vector<double> localFactors(const TileLevel& level, const TileLevel& squares,
+                                 const NoiseLaw& noise,
                                  const AdaptiveParameters& parameters)
 {
   constexpr std::size_t FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
-  std::vector<double> factors(level.sums.size(), 1.0);
+  const std::vector<double> ratios = noiseRatios(level, noise);
+  std::vector<double> factors(squares.at(0, squares.rows), 1.0);
   std::vector<double> around;
-  for (int r = 0; r < level.rows; ++r)
-    for (int c = 0; c < level.columns; ++c) {
-      if (level.sums[level.at(c, r)].n < 1)
-        continue;
+  for (int r = 0; r < squares.rows; ++r)
+    for (int c = 0; c < squares.columns; ++c) {
       around.clear();
-      const int bottom = std::min(level.rows - 1, r + reach);
-      const int right = std::min(level.columns - 1, c + reach);
-      for (int j = std::max(0, r - reach); j <= bottom; ++j)
-        for (int i = std::max(0, c - reach); i <= right; ++i) {
-          const FittedPlane& p = level.planes[level.at(i, j)];
-          if (p.n > 3)
-            around.push_back(unbiasedRms(p) / noise.small(p.centroid.norm()));
-        }
-      if (around.size() >= FEWEST)
-        factors[level.at(c, r)] = std::clamp(
+      std::size_t quiet = 0;
+      const int bottom = std::min(level.rows - 1, 2 * r + 1 + reach);
+      const int right = std::min(level.columns - 1, 2 * c + 1 + reach);
+      for (int j = std::max(0, 2 * r - reach); j <= bottom; ++j)
+        for (int i = std::max(0, 2 * c - reach); i <= right; ++i)
+          if (const double ratio = ratios[level.at(i, j)]; ratio > 0) {
+            around.push_back(ratio);
+            quiet += ratio <= 1 ? 1U : 0U;
+          }
+      const double below =
+          parameters.local_percentile * static_cast<double>(around.size());
+      if (around.size() >= FEWEST && static_cast<double>(quiet) <= below)
+        factors[squares.at(c, r)] = std::clamp(
             percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
     }
   return factors;
 }
 
 /// Pools the noise of the level below, and tells it to the planes.
-void poolNoise(const TileLevel* below, TileLevel& level)
+void poolNoise(const TileLevel& below, TileLevel& level)
 {
   for (int r = 0; r < level.rows; ++r)
     for (int c = 0; c < level.columns; ++c) {
       TileSums& sums = level.sums[level.at(c, r)];
       if (sums.n < 1)
         continue;
-      if (below != nullptr) {
-        sums.noise = 0;
-        for (int j = 2 * r; j < std::min(2 * r + 2, below->rows); ++j)
-          for (int k = 2 * c; k < std::min(2 * c + 2, below->columns); ++k)
-            sums.noise += below->sums[below->at(k, j)].noise;
-      }
+      sums.noise = 0;
+      for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
+        for (int k = 2 * c; k < std::min(2 * c + 2, below.columns); ++k)
+          sums.noise += below.sums[below.at(k, j)].noise;
       level.planes[level.at(c, r)].noise = sums.noise / sums.n;
     }
 }
@@ -196,12 +214,15 @@ void poolNoise(const TileLevel* below, TileLevel& level)
 NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
                        const AdaptiveParameters& parameters)
 {
+  constexpr std::size_t ENOUGH = 2000; // samples
   NoiseLaw noise;
   noise.floor = parameters.min_sigma;
-  noise.cell = parameters.cell;
   std::vector<Sample> samples;
-  for (const FittedPlane& p : pyramid[baseLevel(pyramid)].planes)
-    if (p.n > 3)
+  const std::vector<FittedPlane>& planes = pyramid[BASE].planes;
+  // An odd step goes through all columns.
+  const std::size_t step = (planes.size() / ENOUGH) | 1U;
+  for (std::size_t i = 0; i < planes.size(); i += step)
+    if (const FittedPlane& p = planes[i]; p.n > 3)
       samples.push_back({p.centroid.norm(), unbiasedRms(p)});
   fitDepthLaw(std::move(samples), parameters.noise_percentile, noise);
   estimateGrowth(pyramid, parameters, noise);
@@ -211,9 +232,13 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
 void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                       const AdaptiveParameters& parameters)
 {
-  const std::size_t base = baseLevel(pyramid);
-  const TileLevel& level = pyramid[base];
-  const std::vector<double> factors = localFactors(level, noise, parameters);
+  // Squares of 2x2 tiles of the base level are the tiles of the level above, if there is
+  // one.
+  TileLevel squares;
+  squares.columns = (pyramid[BASE].columns + 1) / 2;
+  squares.rows = (pyramid[BASE].rows + 1) / 2;
+  const std::vector<double> factors =
+      localFactors(pyramid[BASE], squares, noise, parameters);
   TileLevel& cells = pyramid[0];
   for (int r = 0; r < cells.rows; ++r)
     for (int c = 0; c < cells.columns; ++c) {
@@ -221,11 +246,11 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
       if (sums.n < 1)
         continue;
       const double sigma =
-          noise.small(sums.centroid().norm()) * factors[level.at(c >> base, r >> base)];
+          noise.small(sums.centroid().norm()) * factors[squares.at(c / 4, r / 4)];
       sums.noise = sums.n * sigma * sigma;
     }
-  for (std::size_t l = 0; l < pyramid.size(); ++l)
-    poolNoise(l > 0 ? &pyramid[l - 1] : nullptr, pyramid[l]);
+  for (std::size_t l = 1; l < pyramid.size(); ++l)
+    poolNoise(pyramid[l - 1], pyramid[l]);
 }
 
 } // namespace pcl_mrf_planes::adaptive

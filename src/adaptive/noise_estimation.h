@@ -24,7 +24,6 @@ struct NoiseLaw {
   }
   /** \brief growth of sigma for a plane of n points, between the tiles' and the region's. */
   double growthOf(double n) const;
-  int cell = 4; ///< side of the tiles of level 0 [px]
 };
 
 /** \brief Share of the noise variance that lies along the normal. Noise along the ray

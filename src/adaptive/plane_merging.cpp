@@ -26,8 +26,12 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
     const int k = 1 << l;
     for (int r = 0; r < level.rows; ++r)
       for (int c = 0; c < level.columns; ++c) {
-        const FittedPlane& plane = level.planes[level.at(c, r)];
-        if (plane.n < 4 || out.cell_region[cells.at(c * k, r * k)] >= 0)
+        if (out.cell_region[cells.at(c * k, r * k)] >= 0)
+          continue;
+        const FittedPlane plane = level.planes.empty()
+                                      ? fitTile(level, level.at(c, r), parameters)
+                                      : level.planes[level.at(c, r)];
+        if (plane.n < 4)
           continue;
         const double tolerance = parameters.tile_tolerance * parameters.tile_tolerance;
         const double mse = plane.mse * plane.n / (plane.n - 3);
@@ -44,48 +48,91 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
   return out;
 }
 
+namespace {
+
+/// Tiles that lie side by side.
+void findNeighbours(const TileRegions& tiles, const TileLevel& cells, Regions& regions)
+{
+  const auto touch = [&](int a, int b) {
+    if (a >= 0 && b >= 0 && a != b)
+      regions.touch(a, b);
+  };
+  for (int r = 0; r < cells.rows; ++r)
+    for (int c = 0; c < cells.columns; ++c) {
+      const int a = tiles.cell_region[cells.at(c, r)];
+      if (c + 1 < cells.columns)
+        touch(a, tiles.cell_region[cells.at(c + 1, r)]);
+      if (r + 1 < cells.rows)
+        touch(a, tiles.cell_region[cells.at(c, r + 1)]);
+    }
+}
+
+/// Pairs of regions, the most alike first.
+class Agglomeration {
+public:
+  Agglomeration(Regions& regions, const NoiseLaw& noise,
+                const AdaptiveParameters& parameters)
+  : regions_(regions)
+  , noise_(noise)
+  , parameters_(parameters)
+  , limit_(parameters.merge_tolerance * parameters.merge_tolerance)
+  {}
+
+  /// Merges until no two neighbours are one plane. \return whether any were
+  bool run()
+  {
+    for (int a = 0; a < regions_.size(); ++a)
+      if (regions_.find(a) == a)
+        for (const int b : regions_.neighbours(a))
+          if (a < b)
+            offer(a, b);
+    bool merged = false;
+    while (!queue_.empty()) {
+      const Candidate next = queue_.top();
+      queue_.pop();
+      const int a = regions_.find(next.a);
+      const int b = regions_.find(next.b);
+      if (a == b)
+        continue;
+      if (regions_.tiles(a) + regions_.tiles(b) != next.tiles) {
+        offer(a, b); // either has grown since: how alike are they now?
+        continue;
+      }
+      regions_.merge(a, b);
+      merged = true;
+    }
+    return merged;
+  }
+
+private:
+  void offer(int a, int b)
+  {
+    const double cost =
+        dissimilarity(regions_.plane(a), regions_.plane(b),
+                      regions_.sums(a) + regions_.sums(b), noise_, parameters_);
+    if (cost >= 0 && cost <= limit_)
+      queue_.push({cost, std::min(a, b), std::max(a, b),
+                   regions_.tiles(a) + regions_.tiles(b)});
+  }
+
+  Regions& regions_;
+  const NoiseLaw& noise_;
+  const AdaptiveParameters& parameters_;
+  double limit_;
+  std::priority_queue<Candidate> queue_;
+};
+
+} // namespace
+
 TileRegions mergeTouching(const TileRegions& tiles,
                           const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters)
 {
   Regions regions(tiles);
-  const TileLevel& cells = pyramid[0];
-  for (int r = 0; r < cells.rows; ++r)
-    for (int c = 0; c < cells.columns; ++c) {
-      const int a = tiles.cell_region[cells.at(c, r)];
-      const int right =
-          c + 1 < cells.columns ? tiles.cell_region[cells.at(c + 1, r)] : -1;
-      const int down = r + 1 < cells.rows ? tiles.cell_region[cells.at(c, r + 1)] : -1;
-      if (a >= 0 && right >= 0 && right != a)
-        regions.touch(a, right);
-      if (a >= 0 && down >= 0 && down != a)
-        regions.touch(a, down);
-    }
-  std::priority_queue<Candidate> queue;
-  const double limit = parameters.merge_tolerance * parameters.merge_tolerance;
-  const auto offer = [&](int a, int b) {
-    if (a > b)
-      std::swap(a, b);
-    const double cost =
-        dissimilarity(regions.plane(a), regions.plane(b),
-                      regions.sums(a) + regions.sums(b), noise, parameters);
-    if (cost >= 0 && cost <= limit)
-      queue.push({cost, a, b, regions.version(a), regions.version(b)});
-  };
-  for (int a = 0; a < regions.size(); ++a)
-    for (const int b : regions.neighbours(a))
-      if (a < b)
-        offer(a, b);
-  while (!queue.empty()) {
-    const Candidate next = queue.top();
-    queue.pop();
-    if (regions.version(next.a) != next.version_a ||
-        regions.version(next.b) != next.version_b)
-      continue;
-    const int a = regions.merge(next.a, next.b);
-    for (const int b : regions.neighbours(a))
-      offer(a, b);
-  }
+  findNeighbours(tiles, pyramid[0], regions);
+  Agglomeration agglomeration(regions, noise, parameters);
+  while (agglomeration.run()) // what was too different may fit what has grown
+    ;
   return collect(regions, tiles.cell_region, 0.5 * parameters.min_points);
 }
 

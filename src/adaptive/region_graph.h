@@ -17,7 +17,7 @@ public:
   : sums_(tiles.sums)
   , planes_(tiles.planes)
   , parent_(tiles.sums.size())
-  , version_(tiles.sums.size(), 0)
+  , tiles_(tiles.sums.size(), 1)
   , neighbours_(tiles.sums.size())
   {
     std::iota(parent_.begin(), parent_.end(), 0);
@@ -55,8 +55,7 @@ public:
     at(parent_, b) = a;
     at(sums_, a) += at(sums_, b);
     at(planes_, a) = fitSums(at(sums_, a));
-    ++at(version_, a);
-    ++at(version_, b);
+    at(tiles_, a) += at(tiles_, b);
     std::vector<int>& to = at(neighbours_, a);
     std::vector<int>& from = at(neighbours_, b);
     to.insert(to.end(), from.begin(), from.end());
@@ -67,7 +66,8 @@ public:
 
   const FittedPlane& plane(int i) const { return planes_[static_cast<std::size_t>(i)]; }
   const TileSums& sums(int i) const { return sums_[static_cast<std::size_t>(i)]; }
-  int version(int i) const { return version_[static_cast<std::size_t>(i)]; }
+  /// Tiles that a root is made of; grows with every merge.
+  int tiles(int i) const { return tiles_[static_cast<std::size_t>(i)]; }
   int size() const { return static_cast<int>(parent_.size()); }
 
 private:
@@ -79,14 +79,15 @@ private:
 
   std::vector<TileSums> sums_;
   std::vector<FittedPlane> planes_;
-  std::vector<int> parent_, version_;
+  std::vector<int> parent_, tiles_;
   std::vector<std::vector<int>> neighbours_;
 };
 
 /// A pair of regions to merge, as they were when it was looked at.
 struct Candidate {
   double cost;
-  int a, b, version_a, version_b;
+  int a, b;
+  int tiles; ///< of both
 
   bool operator<(const Candidate& o) const // the queue gives the largest first
   {

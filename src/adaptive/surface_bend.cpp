@@ -10,12 +10,82 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-struct Frame {
-  Eigen::Vector3d e1, e2;
-  double scale = 1;
-  Matrix6 a = Matrix6::Zero();
-  Vector6 b = Vector6::Zero();
-  double rr = 0, n = 0;
+/// Sums over the points of a region, in a frame on its plane: everything that the quadric
+/// r = x0 + x1 p + x2 q + x3 p^2 + x4 p q + x5 q^2 asks for.
+class QuadricSums {
+public:
+  explicit QuadricSums(const FittedPlane& plane)
+  : e1_(plane.normal.unitOrthogonal())
+  , e2_(plane.normal.cross(e1_))
+  , normal_(plane.normal)
+  , centroid_(plane.centroid)
+  , scale_(plane.extent > 0 ? 1 / plane.extent : 1)
+  {}
+
+  void add(double x, double y, double z)
+  {
+    const Eigen::Vector3d d = (Eigen::Vector3d(x, y, z) - centroid_) * scale_;
+    const double p = e1_.dot(d), q = e2_.dot(d), r = normal_.dot(d);
+    const double pp = p * p, pq = p * q, qq = q * q;
+    const double terms[MOMENTS] = {1,       p,       q,       pp,      pq,
+                                   qq,      pp * p,  pp * q,  p * qq,  qq * q,
+                                   pp * pp, pp * pq, pp * qq, pq * qq, qq * qq};
+    for (std::size_t k = 0; k < MOMENTS; ++k)
+      moment_[k] += terms[k];
+    for (std::size_t k = 0; k < UNKNOWNS; ++k)
+      residual_[k] += r * terms[k];
+    squared_ += r * r;
+  }
+
+  Bend bend() const
+  {
+    constexpr double FEWEST = 12; // points: twice the unknowns
+    Bend bend;
+    const double n = moment_[0];
+    if (n < FEWEST || squared_ <= 0)
+      return bend;
+    Matrix6 a = normalMatrix();
+    a.diagonal().array() += 1e-9 * n;
+    const Vector6 b = Eigen::Map<const Vector6>(residual_);
+    const Vector6 x = a.ldlt().solve(b);
+    bend.share = std::min(1.0, b.dot(x) / squared_);
+    // curvature along each direction times the region's length in that direction
+    Eigen::Matrix2d hessian, spread;
+    hessian << 2 * x(3), x(4), x(4), 2 * x(5);
+    const double p = moment_[1] / n, q = moment_[2] / n;
+    spread << moment_[3] / n - p * p, moment_[4] / n - p * q, moment_[4] / n - p * q,
+        moment_[5] / n - q * q;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+    for (int j = 0; j < 2; ++j) {
+      const Eigen::Vector2d axis = axes.eigenvectors().col(j);
+      const double length = std::sqrt(12 * std::max(0.0, axes.eigenvalues()(j)));
+      bend.angle = std::max(bend.angle, std::abs(axis.dot(hessian * axis)) * length);
+    }
+    return bend;
+  }
+
+private:
+  static constexpr std::size_t MOMENTS = 15;
+  static constexpr std::size_t UNKNOWNS = 6;
+
+  /// Which moment is the product of two of the six terms.
+  Matrix6 normalMatrix() const
+  {
+    constexpr int PRODUCT[UNKNOWNS][UNKNOWNS] = {
+        {0, 1, 2, 3, 4, 5},    {1, 3, 4, 6, 7, 8},     {2, 4, 5, 7, 8, 9},
+        {3, 6, 7, 10, 11, 12}, {4, 7, 8, 11, 12, 13}, {5, 8, 9, 12, 13, 14}};
+    Matrix6 a;
+    for (int r = 0; r < 6; ++r)
+      for (int c = 0; c < 6; ++c)
+        a(r, c) = moment_[PRODUCT[r][c]];
+    return a;
+  }
+
+  Eigen::Vector3d e1_, e2_, normal_, centroid_;
+  double scale_;
+  double moment_[MOMENTS] = {};
+  double residual_[UNKNOWNS] = {};
+  double squared_ = 0;
 };
 
 } // namespace
@@ -24,56 +94,23 @@ std::vector<Bend> measureBends(const OrganizedPoints& points,
                                const std::vector<std::uint16_t>& labels,
                                const std::vector<FittedPlane>& planes)
 {
-  std::vector<Frame> frames(planes.size());
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    Frame& f = frames[k];
-    f.e1 = planes[k].normal.unitOrthogonal();
-    f.e2 = planes[k].normal.cross(f.e1);
-    f.scale = planes[k].extent > 0 ? 1 / planes[k].extent : 1;
-  }
+  constexpr double MANY = 4000; // points of a region of which every 16th is enough
+  constexpr std::size_t COARSE = 2;
+  std::vector<QuadricSums> sums(planes.begin(), planes.end());
   const auto w = static_cast<std::size_t>(points.width);
   const auto h = static_cast<std::size_t>(points.height);
   for (std::size_t v = 0; v < h; v += 2)
     for (std::size_t u = 0; u < w; u += 2) {
       const std::size_t i = v * w + u;
-      if (!labels[i])
+      if (labels[i] == 0)
         continue;
-      const std::size_t k = labels[i] - 1u;
-      Frame& f = frames[k];
-      const Eigen::Vector3d d =
-          (Eigen::Vector3d(points.x[i], points.y[i], points.z[i]) -
-           planes[k].centroid) *
-          f.scale;
-      const double p = f.e1.dot(d), q = f.e2.dot(d), r = planes[k].normal.dot(d);
-      Vector6 m;
-      m << 1, p, q, p * p, p * q, q * q;
-      f.a.noalias() += m * m.transpose();
-      f.b += r * m;
-      f.rr += r * r;
-      f.n += 1;
+      const std::size_t k = labels[i] - 1U;
+      if (((u | v) & COARSE) == 0 || planes[k].n < MANY)
+        sums[k].add(points.x[i], points.y[i], points.z[i]);
     }
-  std::vector<Bend> bends(planes.size());
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    Frame& f = frames[k];
-    if (f.n < 12 || f.rr <= 0)
-      continue;
-    f.a.diagonal().array() += 1e-9 * f.n;
-    const Vector6 x = f.a.ldlt().solve(f.b);
-    bends[k].share = std::min(1.0, f.b.dot(x) / f.rr);
-    // curvature along each direction times the region's length in that direction
-    Eigen::Matrix2d hessian, spread;
-    hessian << 2 * x(3), x(4), x(4), 2 * x(5);
-    const double p = f.a(0, 1) / f.n, q = f.a(0, 2) / f.n;
-    spread << f.a(0, 3) / f.n - p * p, f.a(0, 4) / f.n - p * q, f.a(0, 4) / f.n - p * q,
-        f.a(0, 5) / f.n - q * q;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-    for (int j = 0; j < 2; ++j) {
-      const Eigen::Vector2d axis = axes.eigenvectors().col(j);
-      const double length = std::sqrt(12 * std::max(0.0, axes.eigenvalues()(j)));
-      bends[k].angle =
-          std::max(bends[k].angle, std::abs(axis.dot(hessian * axis)) * length);
-    }
-  }
+  std::vector<Bend> bends;
+  for (const QuadricSums& sum : sums)
+    bends.push_back(sum.bend());
   return bends;
 }
 

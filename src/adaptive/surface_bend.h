@@ -12,7 +12,7 @@ struct Bend {
 };
 
 /** \brief Bend of every region; label k refers to planes[k - 1]. Every second point of
- * every second row is used. O(points). */
+ * every second row is used, of large regions half of these each way. O(points). */
 std::vector<Bend> measureBends(const OrganizedPoints& points,
                                const std::vector<std::uint16_t>& labels,
                                const std::vector<FittedPlane>& planes);

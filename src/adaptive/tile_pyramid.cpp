@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/tile_pyramid.h"
+#include "adaptive/tile_sums_kernel.h"
+
 #include <algorithm>
 
 namespace pcl_mrf_planes::adaptive {
 
 namespace {
 
-TileSums sumTile(const OrganizedPoints& points, int u0, int v0, int side)
+/// Ten sums of the points of a tile that the image's right border cuts.
+TileSums sumCutTile(const OrganizedPoints& points, int u0, int v0)
 {
   TileSums s;
-  const int u1 = std::min(points.width, u0 + side);
-  const int v1 = std::min(points.height, v0 + side);
+  const int v1 = std::min(points.height, v0 + CELL);
   for (int v = v0; v < v1; ++v)
-    for (int u = u0; u < u1; ++u) {
+    for (int u = u0; u < points.width; ++u) {
       const std::size_t i =
           static_cast<std::size_t>(v) * static_cast<std::size_t>(points.width) +
           static_cast<std::size_t>(u);
@@ -22,16 +24,41 @@ TileSums sumTile(const OrganizedPoints& points, int u0, int v0, int side)
   return s;
 }
 
-void fitTiles(TileLevel& level, double min_fill)
+void sumCells(const OrganizedPoints& points, TileLevel& cells)
 {
-  const double least = min_fill * level.side * level.side;
-  level.planes.assign(level.sums.size(), FittedPlane());
-  for (std::size_t i = 0; i < level.sums.size(); ++i)
-    if (level.sums[i].n >= least)
-      level.planes[i] = fitSums(level.sums[i]);
+  const auto width = static_cast<std::size_t>(points.width);
+  const int whole = points.width / CELL;
+  for (int r = 0; r < cells.rows; ++r) {
+    const std::size_t i = static_cast<std::size_t>(r * CELL) * width;
+    const TileStrip strip = {&points.x[i],     &points.y[i],
+                             &points.z[i],     &points.valid[i],
+                             width,            std::min(CELL, points.height - r * CELL)};
+    sumTiles(strip, static_cast<std::size_t>(whole), &cells.sums[cells.at(0, r)]);
+    if (whole < cells.columns)
+      cells.sums[cells.at(whole, r)] = sumCutTile(points, whole * CELL, r * CELL);
+  }
+}
+
+void poolTiles(const TileLevel& below, TileLevel& level)
+{
+  for (int r = 0; r < level.rows; ++r)
+    for (int c = 0; c < level.columns; ++c) {
+      TileSums& s = level.sums[level.at(c, r)];
+      for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
+        for (int i = 2 * c; i < std::min(2 * c + 2, below.columns); ++i)
+          s += below.sums[below.at(i, j)];
+    }
 }
 
 } // namespace
+
+FittedPlane fitTile(const TileLevel& level, std::size_t tile,
+                    const AdaptiveParameters& parameters)
+{
+  const TileSums& sums = level.sums[tile];
+  return sums.n >= parameters.min_fill * level.side * level.side ? fitSums(sums)
+                                                                 : FittedPlane();
+}
 
 std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
                                         const AdaptiveParameters& parameters)
@@ -39,23 +66,18 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
   std::vector<TileLevel> pyramid(static_cast<std::size_t>(parameters.levels));
   for (std::size_t l = 0; l < pyramid.size(); ++l) {
     TileLevel& level = pyramid[l];
-    level.side = parameters.cell << l;
+    level.side = CELL << l;
     level.columns = (points.width + level.side - 1) / level.side;
     level.rows = (points.height + level.side - 1) / level.side;
     level.sums.resize(level.at(0, level.rows));
-    for (int r = 0; r < level.rows; ++r)
-      for (int c = 0; c < level.columns; ++c) {
-        TileSums& s = level.sums[level.at(c, r)];
-        if (l == 0) {
-          s = sumTile(points, c * level.side, r * level.side, level.side);
-          continue;
-        }
-        const TileLevel& below = pyramid[l - 1];
-        for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
-          for (int i = 2 * c; i < std::min(2 * c + 2, below.columns); ++i)
-            s += below.sums[below.at(i, j)];
-      }
-    fitTiles(level, parameters.min_fill);
+    if (l == 0) {
+      sumCells(points, level);
+      continue;
+    }
+    poolTiles(pyramid[l - 1], level);
+    level.planes.resize(level.sums.size());
+    for (std::size_t i = 0; i < level.sums.size(); ++i)
+      level.planes[i] = fitTile(level, i, parameters);
   }
   return pyramid;
 }

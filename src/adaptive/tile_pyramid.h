@@ -6,13 +6,16 @@
 
 namespace pcl_mrf_planes::adaptive {
 
+/// Side of the smallest tiles, points.
+constexpr int CELL = 4;
+
 /** \brief Sums and planes of the tiles of one size. */
 struct TileLevel {
   int side = 0; ///< [px]
   int columns = 0;
   int rows = 0;
   std::vector<TileSums> sums;
-  std::vector<FittedPlane> planes;
+  std::vector<FittedPlane> planes; ///< none of the smallest tiles: few are needed
 
   std::size_t at(int column, int row) const
   {
@@ -20,6 +23,10 @@ struct TileLevel {
            static_cast<std::size_t>(column);
   }
 };
+
+/** \brief Plane of a tile; one of no points where too few of its points are valid. */
+FittedPlane fitTile(const TileLevel& level, std::size_t tile,
+                    const AdaptiveParameters& parameters);
 
 /** \brief Tiles of doubling side; each level is summed from the one below.
  * O(points) for the first level, O(cells) for the rest. */

@@ -48,8 +48,8 @@ struct FittedPlane : Plane {
   }
 };
 
-/// Exact least-squares plane, equation (3), by the closed form of the eigenvalues of a
-/// 3x3 matrix: an order of magnitude faster than fitPlane(), for thousands of tiles.
+/// Exact least-squares plane, equation (3), by Newton's method on the characteristic
+/// polynomial: an order of magnitude faster than fitPlane(), for thousands of tiles.
 FittedPlane fitSums(const TileSums& sums);
 
 } // namespace pcl_mrf_planes::adaptive

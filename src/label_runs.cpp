@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "label_runs.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+/// End of the run that starts at i: four labels are compared at once.
+std::size_t endOfRun(const std::uint16_t* labels, std::size_t i, std::size_t row_end)
+{
+  constexpr std::size_t AT_ONCE = 4;
+  constexpr std::uint64_t FOUR_TIMES = 0x0001000100010001U;
+  const std::uint16_t label = labels[i];
+  const std::uint64_t same = FOUR_TIMES * label;
+  std::uint64_t four = 0;
+  for (; i + AT_ONCE <= row_end; i += AT_ONCE) {
+    std::memcpy(&four, labels + i, sizeof(four));
+    if (four != same)
+      break;
+  }
+  while (i < row_end && labels[i] == label)
+    ++i;
+  return i;
+}
+
+/// Runs that touch get one root, the first of them in the image.
+class Roots {
+public:
+  explicit Roots(std::size_t runs)
+  {
+    for (std::size_t k = 0; k < runs; ++k)
+      root_.push_back(k);
+  }
+
+  std::size_t find(std::size_t k)
+  {
+    while (root_[k] != k)
+      k = root_[k] = root_[root_[k]];
+    return k;
+  }
+
+  void join(std::size_t a, std::size_t b)
+  {
+    a = find(a);
+    b = find(b);
+    root_[std::max(a, b)] = std::min(a, b);
+  }
+
+private:
+  std::vector<std::size_t> root_;
+};
+
+} // namespace
+
+LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
+                   std::uint16_t background)
+{
+  LabelRuns out;
+  out.width = static_cast<std::size_t>(width);
+  out.rows.push_back(0);
+  for (std::size_t row = 0; row < labels.size(); row += out.width) {
+    for (std::size_t i = row; i < row + out.width;) {
+      const std::size_t end = endOfRun(labels.data(), i, row + out.width);
+      if (labels[i] != background)
+        out.runs.push_back({i, end, labels[i]});
+      i = end;
+    }
+    out.rows.push_back(out.runs.size());
+  }
+  return out;
+}
+
+RunParts connectRuns(const LabelRuns& image)
+{
+  Roots roots(image.runs.size());
+  for (std::size_t row = 0; row + 2 < image.rows.size(); ++row)
+    forEachOverlap(image, row, [&](std::size_t a, std::size_t b) {
+      if (image.runs[a].label == image.runs[b].label)
+        roots.join(a, b);
+    });
+
+  RunParts parts;
+  for (std::size_t k = 0; k < image.runs.size(); ++k) {
+    const LabelRun& run = image.runs[k];
+    const std::size_t root = roots.find(k); // never after k
+    const int part =
+        root == k ? static_cast<int>(parts.size.size()) : parts.part_of_run[root];
+    if (root == k) {
+      parts.size.push_back(0);
+      parts.first.push_back(run.begin);
+    }
+    parts.part_of_run.push_back(part);
+    parts.size[static_cast<std::size_t>(part)] += static_cast<int>(run.end - run.begin);
+  }
+  return parts;
+}
+
+} // namespace pcl_mrf_planes

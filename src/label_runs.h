@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_mrf_planes {
+
+/// Neighbouring points of a row that carry the same label.
+struct LabelRun {
+  std::size_t begin; ///< index of the first point
+  std::size_t end;   ///< one past the last
+  std::uint16_t label;
+};
+
+/// The runs of a label image, without those of the background. An image has some thousands
+/// of them, so that what is done run by run costs little.
+struct LabelRuns {
+  std::size_t width = 0;         ///< of the image
+  std::vector<LabelRun> runs;    ///< row by row
+  std::vector<std::size_t> rows; ///< first run of each row, and the end of the last row
+};
+
+/// Runs of a label image. \param[in] background label that belongs to no run
+/// O(points)
+LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
+                   std::uint16_t background);
+
+/// 4-connected parts of a label image, in the order of their first points.
+struct RunParts {
+  std::vector<int> part_of_run;
+  std::vector<int> size;          ///< points of each part
+  std::vector<std::size_t> first; ///< first point of each part
+};
+
+/// Joins runs of the same label that lie above one another. O(runs)
+RunParts connectRuns(const LabelRuns& runs);
+
+/// Calls overlap(a, b) for each run a of a row and each b of the next row that have a
+/// column in common, from left to right; of any labels.
+template <typename Overlap>
+void forEachOverlap(const LabelRuns& image, std::size_t row, const Overlap& overlap)
+{
+  const std::vector<LabelRun>& runs = image.runs;
+  std::size_t a = image.rows[row];
+  std::size_t b = image.rows[row + 1];
+  const std::size_t a_last = image.rows[row + 1];
+  const std::size_t b_last = image.rows[row + 2];
+  while (a < a_last && b < b_last) {
+    const std::size_t a_begin = runs[a].begin + image.width;
+    const std::size_t a_end = runs[a].end + image.width;
+    if (a_begin < runs[b].end && runs[b].begin < a_end)
+      overlap(a, b);
+    if (a_end <= runs[b].end)
+      ++a;
+    else
+      ++b;
+  }
+}
+
+} // namespace pcl_mrf_planes

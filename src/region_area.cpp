@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "region_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+/// Columns that a run and one of the same label below it have in common: the whole faces
+/// between the two rows.
+struct Strip {
+  std::size_t begin; ///< upper row: index of the first point
+  std::size_t end;   ///< one past the last
+  std::uint16_t label;
+};
+
+/// Adds up the border of the mesh of each label.
+class MeshBorder {
+public:
+  MeshBorder(const OrganizedPoints& points, const std::vector<Plane>& planes,
+             const LabelRuns& image)
+  : points_(points)
+  , planes_(planes)
+  , image_(image)
+  , twice_area_(planes.size(), 0.0)
+  {}
+
+  std::vector<double> areas()
+  {
+    std::vector<Strip> above;
+    std::vector<Strip> below;
+    const std::size_t height = image_.rows.size() - 1;
+    for (std::size_t row = 0; row + 1 < height; ++row) {
+      below.clear();
+      forEachOverlap(image_, row, [&](std::size_t a, std::size_t b) {
+        addStrip(image_.runs[a], image_.runs[b], below);
+      });
+      addEdges(above, below, image_.width);
+      std::swap(above, below);
+    }
+    below.clear();
+    addEdges(above, below, image_.width);
+    for (double& area : twice_area_)
+      area = std::abs(area) / 2;
+    return twice_area_;
+  }
+
+private:
+  /// n . (p x q): what the edge from p to q adds to twice the area of its label.
+  double edge(std::size_t p, std::size_t q, std::uint16_t label) const
+  {
+    const Eigen::Vector3d from(points_.x[p], points_.y[p], points_.z[p]);
+    const Eigen::Vector3d to(points_.x[q], points_.y[q], points_.z[q]);
+    return planes_[label].normal.dot(from.cross(to));
+  }
+
+  void addStrip(const LabelRun& upper, const LabelRun& lower, std::vector<Strip>& strips)
+  {
+    if (upper.label != lower.label)
+      return;
+    const std::size_t width = image_.width;
+    const Strip strip = {std::max(upper.begin, lower.begin - width),
+                         std::min(upper.end, lower.end - width), upper.label};
+    strips.push_back(strip);
+    // Down the right side, up the left one.
+    double& sum = twice_area_[strip.label];
+    const std::size_t last = strip.end - 1;
+    sum += edge(last, last + width, strip.label) +
+           edge(strip.begin + width, strip.begin, strip.label);
+    // Triangles beside the strip, where one of the runs goes on and the other ends.
+    if (upper.end > strip.end)
+      sum += triangle(last, last + 1, last + width, strip.label);
+    if (lower.end - width > strip.end)
+      sum += triangle(last, last + width + 1, last + width, strip.label);
+    if (upper.begin < strip.begin)
+      sum += triangle(strip.begin - 1, strip.begin, strip.begin + width, strip.label);
+    if (lower.begin - width < strip.begin)
+      sum += triangle(strip.begin, strip.begin + width, strip.begin + width - 1,
+                      strip.label);
+  }
+
+  /// Corners clockwise in the image.
+  double triangle(std::size_t a, std::size_t b, std::size_t c, std::uint16_t label) const
+  {
+    return edge(a, b, label) + edge(b, c, label) + edge(c, a, label);
+  }
+
+  /// Edges along a row: those with a face below but none above, from left to right, and
+  /// those with a face above but none below, back.
+  void addEdges(const std::vector<Strip>& above, const std::vector<Strip>& below,
+                std::size_t width)
+  {
+    addUncovered(below, 0, above, width, 1.0);
+    addUncovered(above, width, below, 0, -1.0);
+  }
+
+  /// Edges of the strips that no strip of the other side of the row covers. Each side's
+  /// points lie so far from the row itself.
+  void addUncovered(const std::vector<Strip>& strips, std::size_t offset,
+                    const std::vector<Strip>& others, std::size_t other_offset,
+                    double sign)
+  {
+    std::size_t k = 0;
+    for (const Strip& strip : strips) {
+      std::size_t p = strip.begin + offset;
+      const std::size_t last = strip.end - 1 + offset;
+      while (k < others.size() && others[k].end - 1 + other_offset <= p)
+        ++k;
+      for (std::size_t o = k; o < others.size() && p < last; ++o) {
+        const std::size_t covered = others[o].begin + other_offset;
+        const std::size_t covered_to = others[o].end - 1 + other_offset;
+        if (covered >= last)
+          break;
+        if (covered_to <= covered)
+          continue; // a single column has no edge
+        addRange(p, std::max(p, covered), strip.label, sign);
+        p = std::max(p, covered_to);
+      }
+      addRange(p, last, strip.label, sign);
+    }
+  }
+
+  void addRange(std::size_t p, std::size_t last, std::uint16_t label, double sign)
+  {
+    for (; p < last; ++p)
+      twice_area_[label] += sign * edge(p, p + 1, label);
+  }
+
+  const OrganizedPoints& points_;
+  const std::vector<Plane>& planes_;
+  const LabelRuns& image_;
+  std::vector<double> twice_area_;
+};
+
+} // namespace
+
+std::vector<double> meshAreas(const OrganizedPoints& points,
+                              const std::vector<Plane>& planes, const LabelRuns& image)
+{
+  return MeshBorder(points, planes, image).areas();
+}
+
+} // namespace pcl_mrf_planes
