@@ -19,6 +19,7 @@ import statistics
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402: the backend has to be chosen first
+from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 
 DOC = pathlib.Path(__file__).resolve().parent.parent / 'doc'
 PAGE = DOC / 'accuracy.md'
@@ -148,7 +149,7 @@ def peers_table(rows):
 
 
 def plot_quality_over_time(rows):
-    figure, axes = plt.subplots(figsize=(8, 4.6), layout='constrained')
+    figure, axes = plt.subplots(figsize=(9, 4.2), layout='constrained')
     colours = dict(zip(group(rows, 'method'), COLOURS))
     for (method, setting), frames in group(rows, 'method', 'setting').items():
         quality = mean_over_sets(frames, lambda f: mean_of(f, 'pq'))
@@ -159,6 +160,9 @@ def plot_quality_over_time(rows):
                   markerfacecolor=colours[method] if filled else 'white',
                   label=label_of(method, setting))
     axes.set_xscale('log')
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter('{x:g}')
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_ylim(0, 1)
     axes.set_xlabel('milliseconds at 640x480, one core, median')
     axes.set_ylabel('panoptic quality, mean of the sets')
@@ -171,7 +175,7 @@ def plot_tolerance(rows):
     """Share of the planes found over the tolerance, for the better settings."""
     columns = [name for name in rows[0] if name.startswith('correct_')]
     tolerances = [float(name.split('_')[1]) for name in columns]
-    figure, axes = plt.subplots(figsize=(8, 4.2), layout='constrained')
+    figure, axes = plt.subplots(figsize=(9, 4.2), layout='constrained')
     colours = dict(zip(group(rows, 'method'), COLOURS))
     for (method, setting), frames in group(rows, 'method', 'setting').items():
         if setting == 'published':

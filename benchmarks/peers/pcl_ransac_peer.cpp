@@ -196,11 +196,11 @@ Peer makePclRansac()
            {"tuned",
             "best of tune_peers.py",
             {{"leaf", 0},
-             {"stride", 3},
+             {"stride", 2},
              {"iterations", 1000},
-             {"threshold", 0.01},
+             {"threshold", 0.005},
              {"rest", 0},
-             {"min_points", 1000},
+             {"min_points", 500},
              {"connected", 1}}}},
           segment};
 }

@@ -42,7 +42,7 @@ GRID = {
         'iterations': [300, 1000, 3000],
         'threshold': [0.003, 0.005, 0.0075, 0.01, 0.015, 0.02],
         'rest': [0, 0.05, 0.1, 0.2],
-        'min_points': [500, 1000, 2000, 4000],
+        'min_points': [250, 500, 1000, 2000, 4000],
         'connected': [0, 1],
     },
     'cgal_efficient_ransac': {
