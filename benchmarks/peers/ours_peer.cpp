@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// This library, by its class for PCL. The labels come with coefficients and indices, as
+// a program gets them.
+#include "peer_list.h"
+
+#include <pcl_mrf_planes/mrf_plane_segmentation.h>
+
+namespace pcl_mrf_planes::benchmarks {
+
+namespace {
+
+constexpr const char* PAPER = "paper"; // 0: the profile DEFAULT
+
+Labels segment(const Cloud::ConstPtr& cloud, const Values& values, double& milliseconds)
+{
+  pcl::MRFPlaneSegmentation<pcl::PointXYZ> segmentation;
+  if (values.at(PAPER) != 0.0)
+    segmentation.setProfile(Profile::PAPER);
+  segmentation.setNumberOfThreads(1);
+  std::vector<pcl::ModelCoefficients> planes;
+  std::vector<pcl::PointIndices> inliers;
+  const Stopwatch watch;
+  segmentation.setInputCloud(cloud);
+  segmentation.segment(planes, inliers);
+  milliseconds = watch.milliseconds();
+
+  Labels labels(cloud->size(), 0);
+  for (std::size_t k = 0; k < inliers.size(); ++k)
+    for (const pcl::index_t i : inliers[k].indices)
+      labels[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(k + 1);
+  return labels;
+}
+
+} // namespace
+
+Peer makeOurs()
+{
+  return {"mrf_planes",
+          "this library",
+          {{"paper", "profile PAPER", {{PAPER, 1.0}}},
+           {"default", "profile DEFAULT", {{PAPER, 0.0}}}},
+          segment};
+}
+
+} // namespace pcl_mrf_planes::benchmarks
