@@ -61,7 +61,7 @@ void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
   range.check("fan_share", p.fan_share, 0, 1);
   range.check("fan_border", p.fan_border, 0, LARGEST);
   range.check("fan_gap", p.fan_gap, 0, LARGEST);
-  range.check("bend_angle", p.bend_angle, 0, 360);
+  range.check("bend_angle", p.bend_angle, 0, 720);
   range.check("bend_share", p.bend_share, 0, 1);
   range.check("support_reach", p.support_reach, 1, 512);
   range.check("none_cost", p.none_cost, SMALLEST, 1e3);

@@ -59,8 +59,8 @@ struct AdaptiveParameters {
   double fan_share = 0.006; ///< planes above this share of the points are never dropped
   double fan_border = 0.4;  ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;     ///< step across a smooth border, sigmas, >= 0
-  double bend_angle = 18.0; ///< turn of the normal that makes a region curved, degrees;
-                            ///< 360: off
+  double bend_angle = 18.0; ///< turn of the normal that makes a region curved, degrees,
+                            ///< half of it where the bend is all there is; 720: off
   double bend_share =
       0.35; ///< share of its variance that a quadric must explain, 0 to 1
   ///@}

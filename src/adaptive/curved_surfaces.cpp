@@ -184,10 +184,14 @@ public:
   }
 
 private:
+  /// Where the quadric explains nearly everything, half the turn is enough: no noise can
+  /// have made it up.
   bool bendsItself(const Bend& bend) const
   {
-    return bend.angle > parameters_.bend_angle * DEGREE &&
-           bend.share > parameters_.bend_share;
+    constexpr double NEARLY_ALL = 0.8;
+    const double turn = parameters_.bend_angle * DEGREE;
+    return bend.share > parameters_.bend_share &&
+           bend.angle > (bend.share > NEARLY_ALL ? 0.5 * turn : turn);
   }
 
   /// What is left of a fan whose other parts were no planes.
