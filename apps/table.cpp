@@ -45,7 +45,7 @@ const char* advice(std::size_t tiles_kept, const Parameters& parameters)
     return paper ? "; try another --noise (none keeps every tile) or smaller tiles"
                  : "; try a larger --tile-tolerance or a smaller --min-fill";
   return paper ? "; try a smaller --min-inliers"
-               : "; try a smaller --min-points or --min-inliers";
+               : "; try a smaller --min-evidence, --min-points or --min-inliers";
 }
 
 } // namespace

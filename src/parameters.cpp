@@ -62,7 +62,6 @@ void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
   range.check("fan_border", p.fan_border, 0, LARGEST);
   range.check("fan_gap", p.fan_gap, 0, LARGEST);
   range.check("bend_angle", p.bend_angle, 0, 720);
-  range.check("bend_share", p.bend_share, 0, 1);
   range.check("support_reach", p.support_reach, 1, 512);
   range.check("none_cost", p.none_cost, SMALLEST, 1e3);
   range.check("label_change", p.label_change, 0, 1e3);
@@ -102,6 +101,8 @@ std::string Parameters::validate() const
   checkAdaptive(adaptive, range);
   if (!range.message().empty())
     return range.message();
+  if (adaptive.fan_parts == 1)
+    return "fan_parts is 1; choose 0 for off, or 2 and more: one plane is no row";
   const double probe = noise.sigma(1.0);
   if (std::isnan(probe) || std::isnan(noise.sigma(10.0)) || probe <= 0.0)
     return "noise gives no positive standard deviation at 1 m; choose a preset or "

@@ -117,7 +117,7 @@ std::map<std::string, AdaptiveParameters> extremeParameters()
   all["1 round"].rounds = 1;
   all["10 rounds"].rounds = 10;
   all["no fans"].fan_parts = 0;
-  all["fans of one"].fan_parts = 1;
+  all["fans of two"].fan_parts = 2;
   all["no joining"].join_coplanar = false;
   all["occluders separate"].join_over_occluders = false;
   AdaptiveParameters& greedy = all["takes everything"];

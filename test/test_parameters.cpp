@@ -143,7 +143,6 @@ INSTANTIATE_TEST_SUITE_P(
         real("fan_border", &AdaptiveParameters::fan_border, 0, 1e6),
         real("fan_gap", &AdaptiveParameters::fan_gap, 0, 1e6),
         real("bend_angle", &AdaptiveParameters::bend_angle, 0, 720),
-        real("bend_share", &AdaptiveParameters::bend_share, 0, 1),
         whole("support_reach", &AdaptiveParameters::support_reach, 1, 512),
         real("none_cost", &AdaptiveParameters::none_cost, 1e-6, 1e3),
         real("label_change", &AdaptiveParameters::label_change, 0, 1e3),
@@ -165,6 +164,14 @@ TEST(ParametersTest, TheSmallestTilesAreNoneOfTheLargest)
     EXPECT_EQ(p.validate().find("smallest_level is " + std::to_string(bad)), 0U)
         << "no size is left, got '" << p.validate() << "'";
   }
+}
+
+TEST(ParametersTest, OnePlaneIsNoFan)
+{
+  Parameters p;
+  p.adaptive.fan_parts = 1;
+  EXPECT_EQ(p.validate().find("fan_parts is 1"), 0U)
+      << "every plane would be one, got '" << p.validate() << "'";
 }
 
 TEST(ParametersTest, ANoiseWithoutLimitIsForThePaperOnly)

@@ -54,15 +54,14 @@ struct AdaptiveParameters {
 
   /// \name Curved surfaces
   ///@{
-  int fan_parts = 2; ///< so many small planes in a row are a curved surface; 0: off
+  int fan_parts = 2; ///< so many small planes in a row are a curved surface, >= 2; 0: off
   double fan_angle = 24.0;  ///< largest crease in such a row, degrees
   double fan_share = 0.006; ///< planes above this share of the points are never dropped
   double fan_border = 0.4;  ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;     ///< step across a smooth border, sigmas, >= 0
-  double bend_angle = 18.0; ///< turn of the normal that makes a region curved, degrees,
-                            ///< half of it where the bend is all there is; 720: off
-  double bend_share =
-      0.35; ///< share of its variance that a quadric must explain, 0 to 1
+  /// Turn of the normal, by a quadric, that makes a region curved, degrees, times the root
+  /// of the share of the variance that the quadric explains; 720: off
+  double bend_angle = 14.0;
   ///@}
 
   /// \name Random field

@@ -184,14 +184,11 @@ public:
   }
 
 private:
-  /// Where the quadric explains nearly everything, half the turn is enough: no noise can
-  /// have made it up.
+  /// A turn counts for as much as the bend stands out of the noise: for all of it where
+  /// the quadric explains everything, for a third where that is a tenth of the variance.
   bool bendsItself(const Bend& bend) const
   {
-    constexpr double NEARLY_ALL = 0.8;
-    const double turn = parameters_.bend_angle * DEGREE;
-    return bend.share > parameters_.bend_share &&
-           bend.angle > (bend.share > NEARLY_ALL ? 0.5 * turn : turn);
+    return bend.angle * std::sqrt(bend.share) > parameters_.bend_angle * DEGREE;
   }
 
   /// What is left of a fan whose other parts were no planes.
