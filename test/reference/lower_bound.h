@@ -67,16 +67,19 @@ private:
     std::vector<double> share, before, after;
   };
 
+  /// A number for each label of a site; more are not in use.
+  using Costs = std::array<double, CandidateBlocks::SLOTS>;
+
   /// Makes the min-marginals of a site's row and column the same.
   void agree(int site)
   {
+    Chain& row = chains_[ROWS];
+    Chain& column = chains_[COLUMNS];
     for (std::size_t k = grid_.begin(site); k < grid_.end(site); ++k) {
-      std::array<double, 2> marginal;
-      for (const Family f : {ROWS, COLUMNS})
-        marginal[f] = chains_[f].share[k] + chains_[f].before[k] + chains_[f].after[k];
-      const double transfer = (marginal[COLUMNS] - marginal[ROWS]) / 2;
-      chains_[ROWS].share[k] += transfer;
-      chains_[COLUMNS].share[k] -= transfer;
+      const double in_row = row.share[k] + row.before[k] + row.after[k];
+      const double in_column = column.share[k] + column.before[k] + column.after[k];
+      row.share[k] += (in_column - in_row) / 2;
+      column.share[k] -= (in_column - in_row) / 2;
     }
   }
 
@@ -85,70 +88,62 @@ private:
   {
     for (const Family f : {ROWS, COLUMNS}) {
       const int other = neighbour(f, site, forwards);
-      if (other < 0)
+      // Between two sites without a choice there is nothing to say.
+      if (other < 0 || (grid_.labels(site) == 1 && grid_.labels(other) == 1))
         continue;
       Chain& chain = chains_[f];
-      const std::vector<double>& heard = forwards ? chain.before : chain.after;
-      std::vector<double> known(grid_.end(site) - grid_.begin(site));
-      for (std::size_t k = 0; k < known.size(); ++k)
-        known[k] = chain.share[grid_.begin(site) + k] + heard[grid_.begin(site) + k];
-      const double weight =
-          (f == ROWS ? grid_.right
-                     : grid_.down)[static_cast<std::size_t>(std::min(site, other))];
-      const std::vector<double> message = pass(site, known, other, weight);
-      std::copy(message.begin(), message.end(),
-                (forwards ? chain.before : chain.after).begin() +
-                    static_cast<std::ptrdiff_t>(grid_.begin(other)));
+      std::vector<double>& messages = forwards ? chain.before : chain.after;
+      Costs known = {};
+      for (std::size_t k = 0; k < grid_.labels(site); ++k)
+        known[k] = chain.share[grid_.begin(site) + k] + messages[grid_.begin(site) + k];
+      const Costs message = pass(f, site, known, other);
+      std::copy_n(message.begin(), grid_.labels(other), &messages[grid_.begin(other)]);
     }
   }
 
   /// Site before or after in the chain; -1: none.
   int neighbour(Family family, int site, bool forwards) const
   {
-    const int step = (family == ROWS ? 1 : grid_.width) * (forwards ? 1 : -1);
-    if (family == ROWS) {
-      const int x = site % grid_.width + step;
-      return x < 0 || x >= grid_.width ? -1 : site + step;
-    }
-    const int other = site + step;
+    const int x = site % grid_.width + (forwards ? 1 : -1);
+    if (family == ROWS)
+      return x < 0 || x >= grid_.width ? -1 : site + (forwards ? 1 : -1);
+    const int other = site + (forwards ? grid_.width : -grid_.width);
     return other < 0 || other >= grid_.width * grid_.height ? -1 : other;
   }
 
   /// For each label of a site the least of what is known of another: of the same label,
   /// or of any at the price of a change.
-  std::vector<double> pass(int from, const std::vector<double>& known, int to,
-                           double weight) const
+  Costs pass(Family family, int from, const Costs& known, int to) const
   {
-    const double least = *std::min_element(known.begin(), known.end());
-    std::vector<double> message;
-    for (std::size_t k = grid_.begin(to); k < grid_.end(to); ++k) {
-      double best = least + weight;
-      for (std::size_t j = 0; j < known.size(); ++j)
-        if (grid_.label[grid_.begin(from) + j] == grid_.label[k])
-          best = std::min(best, known[j]);
-      message.push_back(best);
+    const std::size_t count = grid_.labels(from);
+    const double weight =
+        (family == ROWS ? grid_.right
+                        : grid_.down)[static_cast<std::size_t>(std::min(from, to))];
+    const double least = *std::min_element(
+        known.begin(), known.begin() + static_cast<std::ptrdiff_t>(count));
+    Costs message = {};
+    for (std::size_t k = 0; k < grid_.labels(to); ++k) {
+      message[k] = least + weight;
+      for (std::size_t j = 0; j < count; ++j)
+        if (grid_.label[grid_.begin(from) + j] == grid_.label[grid_.begin(to) + k])
+          message[k] = std::min(message[k], known[j]);
     }
     return message;
   }
 
   double leastOfChain(Family family, int start, int step, int length) const
   {
-    const auto shareOf = [&](int site) {
-      const auto begin = chains_[family].share.begin();
-      return std::vector<double>(begin + static_cast<std::ptrdiff_t>(grid_.begin(site)),
-                                 begin + static_cast<std::ptrdiff_t>(grid_.end(site)));
-    };
-    std::vector<double> best = shareOf(start);
-    for (int i = 1; i < length; ++i) {
-      const int from = start + (i - 1) * step;
-      const double weight =
-          (family == ROWS ? grid_.right : grid_.down)[static_cast<std::size_t>(from)];
-      const std::vector<double> message = pass(from, best, from + step, weight);
-      best = shareOf(from + step);
-      for (std::size_t k = 0; k < best.size(); ++k)
-        best[k] += message[k];
+    Costs best = {}; // with this label at the site, of all before it
+    for (int i = 0; i < length; ++i) {
+      const int site = start + i * step;
+      if (i > 0)
+        best = pass(family, site - step, best, site);
+      for (std::size_t k = 0; k < grid_.labels(site); ++k)
+        best[k] += chains_[family].share[grid_.begin(site) + k];
     }
-    return *std::min_element(best.begin(), best.end());
+    const int last = start + (length - 1) * step;
+    return *std::min_element(
+        best.begin(), best.begin() + static_cast<std::ptrdiff_t>(grid_.labels(last)));
   }
 
   const PottsGrid& grid_;

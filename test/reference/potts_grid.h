@@ -21,6 +21,7 @@ struct PottsGrid {
   std::vector<double> right, down; ///< by site; 0 at the borders
 
   int at(int x, int y) const { return y * width + x; }
+  std::size_t labels(int site) const { return end(site) - begin(site); }
   std::size_t begin(int site) const { return first[static_cast<std::size_t>(site)]; }
   std::size_t end(int site) const { return first[static_cast<std::size_t>(site) + 1]; }
 };
