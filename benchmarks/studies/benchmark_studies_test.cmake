@@ -30,7 +30,7 @@ run("${STUDIES}" --data "${FOLDER}/data" --studies ablation sensitivity
   --output "${FOLDER}/studies.csv")
 expect("${FOLDER}/studies.csv" "ablation,default,generated,room,160,120,[0-9.e+-]+,[1-9]"
   "ablation,no passes,generated,room," "sensitivity,default,generated,room,"
-  "sensitivity,none-cost=6,generated,room,")
+  "sensitivity,none-cost 6 instead of 3,generated,room,")
 run("${INFERENCE}" --data "${FOLDER}/data" --iterations 3
   --output "${FOLDER}/inference.csv")
 expect("${FOLDER}/inference.csv" "generated,room,[0-9.]+,50,[0-9]+,[0-9.]+"

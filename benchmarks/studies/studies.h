@@ -11,7 +11,7 @@ namespace pcl_mrf_planes::benchmarks {
 std::vector<Variant> ablationVariants();
 
 /** \brief The defaults, and each numeric parameter by itself at a quarter to four times its
- * default, named NAME=VALUE. */
+ * default, named "NAME VALUE instead of DEFAULT". */
 std::vector<Variant> sensitivityVariants();
 
 /** \brief Profiles and other methods on clouds of growing noise: generated rooms, seen by
