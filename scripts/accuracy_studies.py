@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 from matplotlib.ticker import NullFormatter
 
 from accuracy_tables import (
-    COLOURS, METHODS, SETS, group, markdown_table, mean_of, mean_over_sets, ordered_sets,
+    COLOURS, SETS, group, label_of, markdown_table, mean_of, mean_over_sets, ordered_sets,
     ratio_of, save_plot, short)
 
 # Panels of the sensitivity plot: the groups of adaptive_parameters.h.
@@ -141,16 +141,13 @@ def noise_levels(rows, kind):
     return levels
 
 
-def method_name(variant):
-    method, setting = variant.split()
-    return f'{METHODS.get(method, method)}, {setting}'
-
-
 def plot_noise(axes, levels, label):
-    for (variant, values), colour in zip(levels.items(), COLOURS):
-        axes.plot(list(values), list(values.values()), marker='.', color=colour,
-                  linewidth=2.2 if variant == 'mrf_planes default' else 1,
-                  label=method_name(variant))
+    methods = list(dict.fromkeys(variant.split()[0] for variant in levels))
+    for variant, values in levels.items():
+        method, setting = variant.split()
+        axes.plot(list(values), list(values.values()),
+                  '--' if setting == 'paper' else '-', marker='.',
+                  color=COLOURS[methods.index(method)], label=label_of(method, setting))
     axes.set_xlabel(label)
     axes.set_ylim(0, 1)
     axes.grid(True, alpha=0.25)
@@ -160,7 +157,7 @@ def noise_table(levels, unit):
     values = next(iter(levels.values()))
     return markdown_table(
         ['method'] + [f'{level:g}{unit}' for level in values],
-        [[method_name(variant)] + [short(pq) for pq in by_level.values()]
+        [[label_of(*variant.split())] + [short(pq) for pq in by_level.values()]
          for variant, by_level in levels.items()])
 
 
