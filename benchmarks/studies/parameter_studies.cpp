@@ -5,7 +5,9 @@
 #include "parameter_options.h"
 
 #include <cmath>
+#include <locale>
 #include <set>
+#include <sstream>
 
 namespace pcl_mrf_planes::benchmarks {
 
@@ -47,6 +49,15 @@ const std::vector<Ablation>& ablations()
   return all;
 }
 
+/// Six digits: 0.6 rather than 0.6000000000000001.
+std::string shortText(double value)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
 /// Other values of a parameter, as text; none if it is no number, or 0.
 std::vector<std::string> otherValues(const apps::ParameterOption& option)
 {
@@ -58,15 +69,16 @@ std::vector<std::string> otherValues(const apps::ParameterOption& option)
     return values;
   const bool whole = option.argument == "COUNT" || option.argument == "POINTS" ||
                      option.argument == "TILES" || option.argument == "8 POINTS";
-  std::set<double> tried = {value};
+  std::set<std::string> tried = {text};
   for (const double factor : {0.25, 0.5, 0.8, 1.25, 2.0, 4.0}) {
-    const double other = whole ? std::round(factor * value) : factor * value;
-    Parameters parameters;
+    const std::string other =
+        shortText(whole ? std::round(factor * value) : factor * value);
     if (!tried.insert(other).second)
       continue;
-    option.parse(parameters, apps::printReal(other));
+    Parameters parameters;
+    option.parse(parameters, other);
     if (parameters.validate().empty())
-      values.push_back(apps::printReal(other));
+      values.push_back(other);
   }
   return values;
 }
@@ -85,8 +97,11 @@ std::vector<Variant> sensitivityVariants()
 {
   std::vector<Variant> variants = {variantOf("default", {})};
   for (const apps::ParameterOption& option : apps::parameterOptions(Method::ADAPTIVE))
-    for (const std::string& value : otherValues(option))
-      variants.push_back(variantOf(option.name + '=' + value, {{option.name, value}}));
+    for (const std::string& value : otherValues(option)) {
+      const std::string name =
+          option.name + ' ' + value + " instead of " + option.print(Parameters());
+      variants.push_back(variantOf(name, {{option.name, value}}));
+    }
   return variants;
 }
 
