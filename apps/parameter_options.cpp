@@ -145,7 +145,6 @@ namespace {
 std::vector<ParameterOption> adaptiveOptions()
 {
   using A = AdaptiveParameters;
-  using P = Parameters;
   return {
       integer("levels", &A::levels, "COUNT", "tile sizes, each twice the one before"),
       integer("smallest-level", &A::smallest_level, "COUNT",
@@ -153,20 +152,6 @@ std::vector<ParameterOption> adaptiveOptions()
       real("tile-tolerance", &A::tile_tolerance, "SIGMAS",
            "rms distance that a tile may have"),
       real("min-fill", &A::min_fill, "SHARE", "of valid points that a tile needs"),
-      {"noise", "auto|NAME|METRES|A,B,C",
-       "sensor noise sigma(z): auto, estimated from the cloud; " +
-           join(NoiseModel::names()) +
-           "; the same number of metres at every depth; or the coefficients of a + b z "
-           "+ "
-           "c z^2",
-       [](P& p, const std::string& text) {
-         p.adaptive.estimate_noise = text == "auto";
-         if (text != "auto")
-           p.noise = parseNoise("noise", text);
-       },
-       [](const P& p) {
-         return p.adaptive.estimate_noise ? std::string("auto") : printNoise(p.noise);
-       }},
       real("noise-percentile", &A::noise_percentile, "SHARE",
            "percentile of the tiles' rms distances that is the cloud's noise"),
       real("growth-percentile", &A::growth_percentile, "SHARE",
@@ -238,13 +223,6 @@ std::vector<ParameterOption> paperOptions()
       integer("tile-width", &P::tile_width, "POINTS", "width of a tile"),
       integer("tile-height", &P::tile_height, "POINTS", "height of a tile"),
       choice("fit", &P::fit, FITS, "least-squares fit of a tile's plane"),
-      {"noise", "NAME|METRES|A,B,C",
-       "sensor noise sigma(z) that a tile's error is held against: " +
-           join(NoiseModel::names()) +
-           "; or the same number of metres at every depth; or the coefficients of "
-           "a + b z + c z^2",
-       [](P& p, const std::string& text) { p.noise = parseNoise("noise", text); },
-       [](const P& p) { return printNoise(p.noise); }},
       real("noise-multiplier", &P::noise_multiplier, "FACTOR",
            "how many sigma a tile's rms distance may reach; larger keeps more tiles"),
       real("min-valid-share", &P::min_valid_share, "SHARE",
@@ -267,12 +245,35 @@ std::vector<ParameterOption> paperOptions()
              "record the energy of every iteration (slower)")};
 }
 
+void setNoise(Parameters& p, const std::string& text)
+{
+  p.adaptive.estimate_noise = text == "auto";
+  if (text == "auto" && p.method == Method::PAPER)
+    throw UsageError("--noise is auto; the paper's method takes a preset, metres, or "
+                     "a,b,c, see --help");
+  if (text != "auto")
+    p.noise = parseNoise("noise", text);
+}
+
+std::string printUsedNoise(const Parameters& p)
+{
+  return p.method == Method::ADAPTIVE && p.adaptive.estimate_noise
+             ? "auto"
+             : printNoise(p.noise);
+}
+
 std::vector<ParameterOption> commonOptions()
 {
   using P = Parameters;
   return {
       choice("depth", &P::depth_measure, DEPTHS,
              "what depth is: z of the sensor (cameras), range (rotating lidars)"),
+      {"noise", "auto|NAME|METRES|A,B,C",
+       "sensor noise sigma(z): auto, estimated from the cloud (profile default); " +
+           join(NoiseModel::names()) +
+           "; the same number of metres at every depth; or the coefficients of "
+           "a + b z + c z^2",
+       setNoise, printUsedNoise},
       integer("min-inliers", &P::min_inliers, "POINTS",
               "planes with fewer points are dropped"),
       real("min-area", &P::min_area, "M2", "planes with a smaller area are dropped"),

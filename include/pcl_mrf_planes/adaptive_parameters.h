@@ -67,14 +67,16 @@ struct AdaptiveParameters {
 
   /// \name Random field
   ///@{
-  int support_reach = 2; ///< a plane competes so far from its tiles, 8 points, 1 to 512
+  int support_reach = 2;  ///< a plane competes so far from its tiles, 8 points, and in
+                          ///< rounds after the first 8 points from its labels; 1 to 512
   double none_cost = 3.0; ///< data cost of "no plane", sigmas, > 0
   double label_change =
       1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
   double step_sigmas = 6.0; ///< depth step over which that price falls, sigmas, > 0
   double min_weight = 0.15; ///< share of the price that is left across a step, 0 to 1
-  int passes = 2;           ///< down the image and up again, 0 to 100000
-  int rounds = 2;           ///< of labelling and refitting, 1 to 10
+  int passes = 2; ///< of the last round, down the image and up again; those before make
+                  ///< one at most; 0 to 100000
+  int rounds = 2; ///< of labelling and refitting, 1 to 10
   ///@}
 };
 

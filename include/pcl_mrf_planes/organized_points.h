@@ -51,6 +51,37 @@ struct OrganizedPoints {
     valid[index] = good;
   }
 
+  /** \brief Set the size and all points: point(i) gives the coordinates of the i-th, as
+   * for set(). Memory is reused. O(points) */
+  template <typename Point>
+  void fill(int new_width, int new_height, const Point& point)
+  {
+    width = new_width;
+    height = new_height;
+    const std::size_t count =
+        static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height);
+    x.resize(count);
+    y.resize(count);
+    z.resize(count);
+    valid.resize(count);
+    // Pointers of its own: the compiler then knows that no store moves the vectors.
+    float* const xs = x.data();
+    float* const ys = y.data();
+    float* const zs = z.data();
+    std::uint8_t* const valids = valid.data();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f p = point(i);
+      // Without branches; written so that NaN and infinity fail.
+      const bool good = static_cast<int>(std::abs(p.x()) <= FARTHEST) &
+                        static_cast<int>(std::abs(p.y()) <= FARTHEST) &
+                        static_cast<int>(std::abs(p.z()) <= FARTHEST);
+      xs[i] = good ? p.x() : 0.0f;
+      ys[i] = good ? p.y() : 0.0f;
+      zs[i] = good ? p.z() : 0.0f;
+      valids[i] = good ? 1 : 0;
+    }
+  }
+
   /** \brief Make the point at \a index invalid. */
   void clear(std::size_t index)
   {

@@ -2,12 +2,14 @@
 #include <pcl_mrf_planes/plane_segmentation.h>
 
 #include "adaptive/candidate_field.h"
+#include "adaptive/curved_surfaces.h"
 #include "adaptive/noise_estimation.h"
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_refinement.h"
 #include "adaptive/tile_pyramid.h"
 #include "stage_timer.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace pcl_mrf_planes {
@@ -78,17 +80,20 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
   // C and D. The random field and its MAP labels; then the planes fitted to them
   std::vector<std::uint16_t> labels;
   for (int round = 0; round < parameters.rounds; ++round) {
+    const bool last = round + 1 == parameters.rounds;
+    if (round > 0) // what has got labels is support by now
+      parameters.support_reach = std::min(parameters.support_reach, 1);
     const CandidateField field =
         buildField(points, regions, pyramid[0], noise, parameters);
     timer.finish("field");
-    labels = propagateBeliefs(field, points, parameters.passes);
-    report.iterations += parameters.passes;
+    const int passes = last ? parameters.passes : std::min(parameters.passes, 1);
+    labels = propagateBeliefs(field, points, passes);
+    report.iterations += passes;
     timer.finish("propagation");
     regions = refineRegions(points, pyramid[0], noise, parameters, labels);
     timer.finish("refinement");
   }
-  if (parameters.fan_parts > 0)
-    dropCurvedFans(points, noise, parameters, regions, labels);
+  dropDoubtfulPlanes(points, noise, parameters, regions, labels);
   timer.finish("refinement");
 
   const std::vector<Plane> planes(regions.planes.begin(), regions.planes.end());

@@ -107,7 +107,7 @@ public:
   void add(const BlockPlace& place)
   {
     CandidateBlocks& blocks = field_.blocks;
-    const std::size_t count = blocks.count[place.block];
+    std::size_t count = blocks.count[place.block];
     field_.number.push_back(CandidateField::SETTLED);
     if (count < 2)
       return;
@@ -116,6 +116,8 @@ public:
       return;
     }
     fillCosts(place);
+    dropHopeless(place.block);
+    count = blocks.count[place.block];
     for (std::size_t s = 0; s < count; ++s)
       if (isSettled(s, count)) {
         settle(place.block, s);
@@ -139,22 +141,30 @@ private:
     blocks.count[block] = 1;
   }
 
-  /// A block with one plane in which no point can be so far from it that "no plane" were
-  /// better: the sums of squared distances, from the ten sums of its cells, say so.
+  /// A block with one plane in which no points can be so far from it that a hole pays. Its k
+  /// points save their distances less k times the cost of "no plane", at most
+  /// sqrt(k) sqrt(Q) - k none where Q is the sum of squared distances in sigmas; they pay
+  /// for a border of at least 4 sqrt(k). That is never worth it while
+  /// sqrt(Q) <= none + 4 change. Q follows from the ten sums of the cells.
   bool fitsAsAWhole(const BlockPlace& place) const
   {
     const LabelScale& plane = scales_[field_.blocks.labelsOf(place.block)[1] - 1U];
-    const double most = parameters_.none_cost * parameters_.none_cost;
+    double squares = 0;
     for (int r = place.row / CELL; r * CELL < place.row + place.rows; ++r)
       for (int c = place.column / CELL; c * CELL < place.column + place.columns; ++c) {
         const TileSums& sums = cells_.sums[cells_.at(c, r)];
         if (sums.n < 1)
           continue;
         const double variance = plane.growth * (sums.noise / sums.n) + plane.bend;
-        if (squaredDistances(sums, plane) > most * variance)
-          return false;
+        squares += squaredDistances(sums, plane) / variance;
       }
-    return true;
+    return squares <= mostSquares();
+  }
+
+  double mostSquares() const
+  {
+    const double most = parameters_.none_cost + 4 * parameters_.label_change;
+    return most * most;
   }
 
   std::size_t pointAt(const BlockPlace& place, int row) const
@@ -219,23 +229,72 @@ private:
     }
   }
 
-  /// A label that is better than all others everywhere by the price of a change: within
-  /// the block no border pays, and around it less than that is saved.
-  bool isSettled(std::size_t label, std::size_t count) const
+  /// Drops planes that no point of the block can take in any optimal labelling: some other
+  /// label is better by more than four changes cost (dead-end elimination).
+  void dropHopeless(std::size_t block)
+  {
+    CandidateBlocks& blocks = field_.blocks;
+    const std::size_t count = blocks.count[block];
+    const BlockRow::Numbers four =
+        units(4 * static_cast<float>(parameters_.label_change)) + BlockRow::Numbers{};
+    std::array<BlockRow::Numbers, SIDE> limit;
+    for (std::size_t r = 0; r < SIDE; ++r) {
+      limit[r] = costs_[r][0];
+      for (std::size_t s = 1; s < count; ++s)
+        limit[r] = least(limit[r], costs_[r][s]);
+      limit[r] += four;
+    }
+    std::size_t kept = 1;
+    for (std::size_t s = 1; s < count; ++s) {
+      BlockRow::Numbers hope = {};
+      for (std::size_t r = 0; r < SIDE; ++r)
+        hope |= (costs_[r][s] <= limit[r]) & valid_[r];
+      if (!any(hope))
+        continue;
+      for (std::size_t r = 0; r < SIDE; ++r)
+        costs_[r][kept] = costs_[r][s];
+      blocks.labels[block * SLOTS + kept] = blocks.labels[block * SLOTS + s];
+      ++kept;
+    }
+    blocks.count[block] = static_cast<std::uint8_t>(kept);
+  }
+
+  static bool any(BlockRow::Numbers numbers)
   {
     using Words __attribute__((vector_size(16))) = std::uint64_t;
+    const auto words = reinterpret_cast<Words>(numbers);
+    return (words[0] | words[1]) != 0;
+  }
+
+  /// A label that is better than all others everywhere by the price of a change: within
+  /// the block no border pays, and around it less than that is saved. For "no plane" in
+  /// place of a plane it is enough that no hole pays.
+  bool isSettled(std::size_t label, std::size_t count) const
+  {
     const BlockRow::Numbers margin =
         units(static_cast<float>(parameters_.label_change)) + BlockRow::Numbers{};
+    const std::size_t first = label == 0 ? 0 : 1;
     for (std::size_t r = 0; r < SIDE; ++r) {
       const BlockRow::Numbers limit = costs_[r][label] + margin;
       BlockRow::Numbers better = {};
-      for (std::size_t s = 0; s < count; ++s)
+      for (std::size_t s = first; s < count; ++s)
         better |= s != label ? limit > costs_[r][s] : BlockRow::Numbers{};
-      const Words any = reinterpret_cast<Words>(better & valid_[r]);
-      if ((any[0] | any[1]) != 0)
+      if (any(better & valid_[r]))
         return false;
     }
-    return true;
+    return label == 0 || squaresOf(label) <= mostSquares();
+  }
+
+  /// Sum of the squared costs of a label, sigmas; costs that were cut are far too many.
+  double squaresOf(std::size_t label) const
+  {
+    float sum = 0;
+    for (const auto& row : costs_)
+      for (std::size_t k = 0; k < SIDE; ++k) {
+        const auto cost = static_cast<float>(row[label][k]);
+        sum += cost * cost;
+      }
+    return sum / (units_ * units_);
   }
 
   void fillWeights(const BlockPlace& place, BlockWeights& out)

@@ -28,6 +28,19 @@ public:
       for (int c = 0; c < cells.columns; ++c)
         if (const int id = regions.cell_region[cells.at(c, r)]; id >= 0)
           members_[static_cast<std::size_t>(id)].push_back({c, r});
+    for (const std::vector<Cell>& cells_of : members_)
+      boxes_.push_back(boxOf(cells_of));
+  }
+
+  /// False if the gap is too wide even between the boxes around the parts.
+  bool mayBeNarrow(int a, int b) const
+  {
+    const Box& p = boxes_[static_cast<std::size_t>(a)];
+    const Box& q = boxes_[static_cast<std::size_t>(b)];
+    const int dx =
+        std::max({0, p.low.column - q.high.column, q.low.column - p.high.column});
+    const int dy = std::max({0, p.low.row - q.high.row, q.low.row - p.high.row});
+    return dx * dx + dy * dy <= widest(a, b);
   }
 
   /// True if the gap is not wide and nothing in it lies behind the plane: what separates
@@ -45,9 +58,8 @@ public:
       gap = std::min(gap, squaredDistance(from[k], nearest));
       walk(plane, tolerance, from[k], nearest, walked);
     }
-    const auto smaller = static_cast<double>(std::min(from.size(), to.size()));
     return walked.off_plane <= parameters_.join_seen * walked.points &&
-           gap <= parameters_.join_gap * parameters_.join_gap * smaller;
+           gap <= widest(a, b);
   }
 
 private:
@@ -55,6 +67,32 @@ private:
     int points = 0;
     int off_plane = 0;
   };
+
+  struct Box {
+    Cell low, high;
+  };
+
+  static Box boxOf(const std::vector<Cell>& cells)
+  {
+    constexpr int FAR = 1 << 14; // cells
+    Box box = {{FAR, FAR}, {-FAR, -FAR}};
+    for (const Cell& cell : cells) {
+      box.low = {std::min(box.low.column, cell.column),
+                 std::min(box.low.row, cell.row)};
+      box.high = {std::max(box.high.column, cell.column),
+                  std::max(box.high.row, cell.row)};
+    }
+    return box;
+  }
+
+  /// Widest gap that may be joined over, squared, in cells.
+  double widest(int a, int b) const
+  {
+    const auto smaller =
+        static_cast<double>(std::min(members_[static_cast<std::size_t>(a)].size(),
+                                     members_[static_cast<std::size_t>(b)].size()));
+    return parameters_.join_gap * parameters_.join_gap * smaller;
+  }
 
   static int squaredDistance(const Cell& a, const Cell& b)
   {
@@ -105,6 +143,7 @@ private:
   int side_;
   const AdaptiveParameters& parameters_;
   std::vector<std::vector<Cell>> members_;
+  std::vector<Box> boxes_;
 };
 
 } // namespace
@@ -126,7 +165,8 @@ TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points
   std::vector<Candidate> pairs;
   for (int a = 0; a < regions.size(); ++a)
     for (int b = a + 1; b < regions.size(); ++b) {
-      if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE)
+      if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||
+          !gap.mayBeNarrow(a, b))
         continue;
       const double c = cost(a, b);
       if (c >= 0 && c <= limit)

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/region_refinement.h"
-#include "adaptive/surface_bend.h"
 #include "label_runs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <map>
-#include <numeric>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
 namespace {
-
-void fillRun(const LabelRun& run, std::uint16_t label,
-             std::vector<std::uint16_t>& labels)
-{
-  std::fill(labels.begin() + static_cast<std::ptrdiff_t>(run.begin),
-            labels.begin() + static_cast<std::ptrdiff_t>(run.end), label);
-}
 
 /// Labels of 4-connected parts below the least size become 0.
 LabelRuns dropSmallParts(int width, int least, std::vector<std::uint16_t>& labels)
@@ -32,15 +21,6 @@ LabelRuns dropSmallParts(int width, int least, std::vector<std::uint16_t>& label
       image.runs[k].label = 0;
     }
   return image;
-}
-
-/// Gives every label its new number.
-void renumber(const LabelRuns& image, const std::vector<std::uint16_t>& id,
-              std::vector<std::uint16_t>& labels)
-{
-  for (const LabelRun& run : image.runs)
-    if (id[run.label] != run.label)
-      fillRun(run, id[run.label], labels);
 }
 
 /// Sums of the points of each label; whole cells of one label are added at once.
@@ -135,19 +115,13 @@ private:
   std::vector<std::pair<std::uint16_t, int>> votes_;
 };
 
-/// Whether points fit a plane as well as their noise allows, and there is so much of it
-/// that chance does not explain it: n ln(width / rms) nats are saved by an equation that
-/// tells where on their plane points lie, and not where in a slab as thick as it is wide.
+/// Whether points fit a plane as well as their noise allows.
 bool isPlane(const FittedPlane& plane, const NoiseLaw& noise,
              const AdaptiveParameters& parameters)
 {
-  constexpr double THINNEST = 1e-6; // metres
   const double tolerance = parameters.accept_tolerance * parameters.accept_tolerance;
-  if (plane.n < parameters.min_points ||
-      plane.mse > tolerance * allowedVariance(plane, noise, parameters))
-    return false;
-  const double rms = std::max(std::sqrt(plane.mse), THINNEST);
-  return plane.n * std::log(plane.width / rms) >= parameters.min_evidence;
+  return plane.n >= parameters.min_points &&
+         plane.mse <= tolerance * allowedVariance(plane, noise, parameters);
 }
 
 } // namespace
@@ -175,155 +149,6 @@ TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
   for (const std::uint16_t label : found.majority)
     out.cell_region.push_back(id[label] - 1);
   return out;
-}
-
-namespace {
-
-constexpr double DEGREE = 3.14159265358979323846 / 180.0;
-
-/// Where two regions meet.
-struct Border {
-  int length = 0; ///< points
-  double step =
-      0; ///< sum of squared distances across, the smaller one of both ways, m^2
-};
-
-/// Borders by the regions on either side, the smaller number first.
-using Borders = std::map<std::pair<int, int>, Border>;
-
-/// Looks across every change of label, at points so far apart that the smoothing of edges by
-/// the sensor does not count.
-class BorderFinder {
-public:
-  BorderFinder(const OrganizedPoints& points, const TileRegions& regions,
-               const std::vector<std::uint16_t>& labels)
-  : points_(points)
-  , regions_(regions)
-  , labels_(labels)
-  {}
-
-  Borders find(const LabelRuns& image)
-  {
-    const std::size_t width = image.width;
-    for (const LabelRun& run : image.runs) {
-      const std::size_t row_end = (run.begin / width + 1) * width;
-      if (run.end - 1 + REACH < row_end)
-        look(run.label, run.end - 1, run.end - 1 + REACH);
-      if (row_end + (REACH - 1) * width >= labels_.size())
-        continue;
-      for (std::size_t i = run.begin; i < run.end; ++i)
-        if (labels_[i + width] != run.label)
-          look(run.label, i, i + REACH * width);
-    }
-    return std::move(borders_);
-  }
-
-private:
-  static constexpr std::size_t REACH = 3;
-
-  void look(std::uint16_t label, std::size_t i, std::size_t j)
-  {
-    if (labels_[j] == 0 || label == labels_[j] || label == 0)
-      return;
-    const std::pair<int, int> pair = std::minmax(label - 1, labels_[j] - 1);
-    if (border_ == nullptr || pair != pair_) { // mostly the same as the last time
-      pair_ = pair;
-      border_ = &borders_[pair];
-    }
-    const double across = distance(label - 1, j);
-    const double back = distance(labels_[j] - 1, i);
-    ++border_->length;
-    border_->step += std::min(across * across, back * back);
-  }
-
-  double distance(int region, std::size_t i) const
-  {
-    return regions_.planes[static_cast<std::size_t>(region)].distance(
-        points_.x[i], points_.y[i], points_.z[i]);
-  }
-
-  const OrganizedPoints& points_;
-  const TileRegions& regions_;
-  const std::vector<std::uint16_t>& labels_;
-  Borders borders_;
-  std::pair<int, int> pair_ = {-1, -1};
-  Border* border_ = nullptr;
-};
-
-/// True for two smaller regions that meet along a long border, in a shallow crease and
-/// without a step: facets of one curved surface.
-bool isFold(const FittedPlane& a, const FittedPlane& b, const Border& border,
-            double largest, const NoiseLaw& noise, const AdaptiveParameters& parameters)
-{
-  if (a.n > largest || b.n > largest ||
-      a.normal.dot(b.normal) < std::cos(parameters.fan_angle * DEGREE))
-    return false;
-  if (border.length < parameters.fan_border * std::sqrt(std::min(a.n, b.n)))
-    return false;
-  constexpr double STEP_SHARE = 0.002; // of the distance: points that lie apart
-  const double apart = STEP_SHARE * a.centroid.norm();
-  const double allowed = std::max(allowedVariance(a, noise, parameters),
-                                  allowedVariance(b, noise, parameters)) +
-                         apart * apart;
-  return border.step / border.length <=
-         parameters.fan_gap * parameters.fan_gap * allowed;
-}
-
-/// Number of regions in the row of folds that each region belongs to.
-std::vector<int> fanSizes(const Borders& borders, const TileRegions& regions,
-                          double largest, const NoiseLaw& noise,
-                          const AdaptiveParameters& parameters)
-{
-  std::vector<std::size_t> parent(regions.planes.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto find = [&](std::size_t k) {
-    while (parent[k] != k)
-      k = parent[k];
-    return k;
-  };
-  for (const auto& [pair, border] : borders) {
-    const auto a = static_cast<std::size_t>(pair.first);
-    const auto b = static_cast<std::size_t>(pair.second);
-    if (isFold(regions.planes[a], regions.planes[b], border, largest, noise,
-               parameters))
-      parent[std::max(find(a), find(b))] = std::min(find(a), find(b));
-  }
-  std::vector<int> members(parent.size(), 0);
-  for (std::size_t k = 0; k < parent.size(); ++k)
-    ++members[find(k)];
-  std::vector<int> sizes(parent.size());
-  for (std::size_t k = 0; k < parent.size(); ++k)
-    sizes[k] = members[find(k)];
-  return sizes;
-}
-
-} // namespace
-
-void dropCurvedFans(const OrganizedPoints& points, const NoiseLaw& noise,
-                    const AdaptiveParameters& parameters, TileRegions& regions,
-                    std::vector<std::uint16_t>& labels)
-{
-  const LabelRuns image = findRuns(labels, points.width, 0);
-  const double largest =
-      parameters.fan_share * static_cast<double>(points.countValid());
-  const std::vector<int> fan =
-      fanSizes(BorderFinder(points, regions, labels).find(image), regions, largest,
-               noise, parameters);
-  const std::vector<Bend> bends = measureBends(points, labels, regions.planes);
-  const auto curved = [&](const Bend& bend) {
-    return bend.angle > parameters.bend_angle * DEGREE &&
-           bend.share > parameters.bend_share;
-  };
-  std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
-  TileRegions kept;
-  for (std::size_t k = 0; k < regions.planes.size(); ++k)
-    if (fan[k] < parameters.fan_parts && !curved(bends[k])) {
-      kept.planes.push_back(regions.planes[k]);
-      kept.sums.push_back(regions.sums[k]);
-      id[k + 1] = static_cast<std::uint16_t>(kept.planes.size());
-    }
-  renumber(image, id, labels);
-  regions = std::move(kept);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -11,11 +11,4 @@ TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
                           const NoiseLaw& noise, const AdaptiveParameters& parameters,
                           std::vector<std::uint16_t>& labels);
 
-/** \brief Drop what are facets of a curved surface: three or more smaller regions in a row,
- * each meeting the next without a step in a shallow crease. The cells of the regions are
- * not kept. O(points) */
-void dropCurvedFans(const OrganizedPoints& points, const NoiseLaw& noise,
-                    const AdaptiveParameters& parameters, TileRegions& regions,
-                    std::vector<std::uint16_t>& labels);
-
 } // namespace pcl_mrf_planes::adaptive

@@ -18,14 +18,16 @@ const std::vector<std::string> OTHER_OPTIONS = {
     "models", "label-image", "overlay", "format", "config", "profile",
     "repeat", "timing",      "quiet",   "help",   "version"};
 
-const Values COMMON = {
-    {"depth", "range"}, {"min-inliers", 30}, {"min-area", 0.0625}, {"threads", 2}};
+const Values COMMON = {{"depth", "range"},
+                       {"noise", "0.002,0.0005,0.001"},
+                       {"min-inliers", 30},
+                       {"min-area", 0.0625},
+                       {"threads", 2}};
 
 /// Of profile paper; --energy, a switch, comes on top.
 const Values PAPER = {{"tile-width", 16},
                       {"tile-height", 12},
                       {"fit", "geometric"},
-                      {"noise", "0.002,0.0005,0.001"},
                       {"noise-multiplier", 2.5},
                       {"min-valid-share", 0.25},
                       {"beta", 0.75},
@@ -41,7 +43,6 @@ const Values PAPER = {{"tile-width", 16},
 /// Of profile default.
 const Values ADAPTIVE = {{"levels", 3},
                          {"smallest-level", 1},
-                         {"noise", "0.002,0,0.0019"},
                          {"tile-tolerance", 2.25},
                          {"min-fill", 0.625},
                          {"noise-percentile", 0.55},
@@ -145,7 +146,7 @@ TEST_F(CommandLine, HelpNamesEveryOption)
     EXPECT_NE(outcome.out.find("--" + option + " "), std::string::npos) << option;
   for (const char* word :
        {"Parameters of profile default", "Parameters of profile paper", "(default: 40)",
-        "(default: kinect)", "structured_light", "predicted-depth", "geometric",
+        "(default: auto)", "structured_light", "predicted-depth", "geometric",
         "Exit status"})
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   EXPECT_EQ(segment({"-h"}).out, outcome.out);
@@ -325,9 +326,9 @@ TEST_F(CommandLine, WrongUseIsStatusTwoAndOneLineThatHelps)
       {{in, out, "--tile-width", "20"},
        "--tile-width has no effect in profile default; add --profile paper"},
       {{in, out, "--energy"}, "--energy has no effect in profile default"},
-      {{in, out, paper, "--cell", "4"},
-       "--cell has no effect in profile paper; add --profile default"},
-      {{in, out, "--cell", "3"}, "--cell is 3; choose 2, 4 or 8"},
+      {{in, out, paper, "--levels", "4"},
+       "--levels has no effect in profile paper; add --profile default"},
+      {{in, out, paper, "--noise", "auto"}, "--noise is auto"},
       {{in, out, "--levels", "9"}, "--levels is 9; choose a value from 2 to 8"},
       {{in, out, "--min-fill", "1.5"}, "--min-fill is 1.5; choose a value from 0 to 1"},
       {{in, out, "--passes", "1.5"}, "whole number"},

@@ -204,21 +204,22 @@ template <typename PointT>
 void MRFPlaneSegmentation<PointT>::readPoints()
 {
   findPose();
-  points_.resize(static_cast<int>(input_->width), static_cast<int>(input_->height));
   const Eigen::Matrix3d to_sensor = pose_.rotation.transpose();
-  const bool in_sensor_frame = pose_.origin.isZero(0.0) &&
-                               to_sensor.isIdentity(0.0); // the usual case: no motion
-  for (std::size_t i = 0; i < input_->size(); ++i) {
-    const PointT& p = (*input_)[i];
-    if (in_sensor_frame) {
-      points_.set(i, p.x, p.y, p.z);
-      continue;
-    }
-    const Eigen::Vector3d q =
-        to_sensor * (Eigen::Vector3d(p.x, p.y, p.z) - pose_.origin);
-    points_.set(i, static_cast<float>(q.x()), static_cast<float>(q.y()),
-                static_cast<float>(q.z()));
-  }
+  const PointT* cloud = input_->points.data();
+  const auto as_seen = [cloud](std::size_t i) {
+    return Eigen::Vector3f(cloud[i].x, cloud[i].y, cloud[i].z);
+  };
+  const auto moved = [&](std::size_t i) -> Eigen::Vector3f {
+    const Eigen::Vector3d p(cloud[i].x, cloud[i].y, cloud[i].z);
+    return (to_sensor * (p - pose_.origin)).template cast<float>();
+  };
+  const auto width = static_cast<int>(input_->width);
+  const auto height = static_cast<int>(input_->height);
+  if (pose_.origin.isZero(0.0) &&
+      to_sensor.isIdentity(0.0)) // the usual case: no motion
+    points_.fill(width, height, as_seen);
+  else
+    points_.fill(width, height, moved);
   if (!fake_indices_)
     limitToIndices();
   points_.resolveDepthMeasure(parameters_.depth_measure);

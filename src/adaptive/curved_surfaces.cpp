@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/curved_surfaces.h"
+#include "adaptive/surface_bend.h"
+#include "label_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace pcl_mrf_planes::adaptive {
+
+namespace {
+
+constexpr double DEGREE = 3.14159265358979323846 / 180.0;
+
+/// Where two regions meet.
+struct Border {
+  int length = 0; ///< points
+  double step =
+      0; ///< sum of squared distances across, the smaller one of both ways, m^2
+};
+
+/// Borders by the regions on either side, the smaller number first.
+using Borders = std::map<std::pair<int, int>, Border>;
+
+/// Looks across every change of label, at points so far apart that the smoothing of edges by
+/// the sensor does not count.
+class BorderFinder {
+public:
+  BorderFinder(const OrganizedPoints& points, const TileRegions& regions,
+               const std::vector<std::uint16_t>& labels, double sharpest_crease)
+  : goes_on(regions.planes.size(), 0)
+  , points_(points)
+  , regions_(regions)
+  , labels_(labels)
+  , sine_(std::sin(sharpest_crease))
+  {}
+
+  void look(const LabelRuns& image)
+  {
+    const std::size_t width = image.width;
+    for (const LabelRun& run : image.runs) {
+      const std::size_t row_end = (run.begin / width + 1) * width;
+      if (run.end - 1 + REACH < row_end)
+        look(run.label, run.end - 1, run.end - 1 + REACH);
+      if (row_end + (REACH - 1) * width >= labels_.size())
+        continue;
+      for (std::size_t i = run.begin; i < run.end; ++i)
+        if (labels_[i + width] != run.label)
+          look(run.label, i, i + REACH * width);
+    }
+  }
+
+  Borders borders;
+  /// Border points of each region beyond which the surface goes on in a shallow crease, but
+  /// is on no plane.
+  std::vector<int> goes_on;
+
+private:
+  static constexpr std::size_t REACH = 3;
+
+  void look(std::uint16_t label, std::size_t i, std::size_t j)
+  {
+    if (label == 0 || label == labels_[j] || points_.valid[j] == 0)
+      return;
+    const double across = distance(label - 1, j);
+    if (labels_[j] == 0) {
+      goes_on[label - 1U] += isShallow(across, i, j) ? 1 : 0;
+      return;
+    }
+    const std::pair<int, int> pair = std::minmax(label - 1, labels_[j] - 1);
+    if (border_ == nullptr || pair != pair_) { // mostly the same as the last time
+      pair_ = pair;
+      border_ = &borders[pair];
+    }
+    const double back = distance(labels_[j] - 1, i);
+    ++border_->length;
+    border_->step += std::min(across * across, back * back);
+  }
+
+  /// Whether the surface goes on to a point in a crease no sharper than that of a fan.
+  bool isShallow(double height, std::size_t i, std::size_t j) const
+  {
+    const Eigen::Vector3d way(points_.x[j] - points_.x[i], points_.y[j] - points_.y[i],
+                              points_.z[j] - points_.z[i]);
+    return height * height <= sine_ * sine_ * way.squaredNorm();
+  }
+
+  double distance(int region, std::size_t i) const
+  {
+    return regions_.planes[static_cast<std::size_t>(region)].distance(
+        points_.x[i], points_.y[i], points_.z[i]);
+  }
+
+  const OrganizedPoints& points_;
+  const TileRegions& regions_;
+  const std::vector<std::uint16_t>& labels_;
+  double sine_;
+  std::pair<int, int> pair_ = {-1, -1};
+  Border* border_ = nullptr;
+};
+
+/// True for two smaller regions that meet along a long border, in a shallow crease and
+/// without a step: facets of one curved surface.
+bool isFold(const FittedPlane& a, const FittedPlane& b, const Border& border,
+            double largest, const NoiseLaw& noise, const AdaptiveParameters& parameters)
+{
+  if (a.n > largest || b.n > largest ||
+      a.normal.dot(b.normal) < std::cos(parameters.fan_angle * DEGREE))
+    return false;
+  if (border.length < parameters.fan_border * std::sqrt(std::min(a.n, b.n)))
+    return false;
+  constexpr double STEP_SHARE = 0.002; // of the distance: points that lie apart
+  const double apart = STEP_SHARE * a.centroid.norm();
+  const double allowed = std::max(allowedVariance(a, noise, parameters),
+                                  allowedVariance(b, noise, parameters)) +
+                         apart * apart;
+  return border.step / border.length <=
+         parameters.fan_gap * parameters.fan_gap * allowed;
+}
+
+/// Number of regions in the row of folds that each region belongs to.
+std::vector<int> fanSizes(const Borders& borders, const TileRegions& regions,
+                          double largest, const NoiseLaw& noise,
+                          const AdaptiveParameters& parameters)
+{
+  std::vector<std::size_t> parent(regions.planes.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto find = [&](std::size_t k) {
+    while (parent[k] != k)
+      k = parent[k];
+    return k;
+  };
+  for (const auto& [pair, border] : borders) {
+    const auto a = static_cast<std::size_t>(pair.first);
+    const auto b = static_cast<std::size_t>(pair.second);
+    if (isFold(regions.planes[a], regions.planes[b], border, largest, noise,
+               parameters))
+      parent[std::max(find(a), find(b))] = std::min(find(a), find(b));
+  }
+  std::vector<int> members(parent.size(), 0);
+  for (std::size_t k = 0; k < parent.size(); ++k)
+    ++members[find(k)];
+  std::vector<int> sizes(parent.size());
+  for (std::size_t k = 0; k < parent.size(); ++k)
+    sizes[k] = members[find(k)];
+  return sizes;
+}
+
+/// Whether there is so much of a plane that chance does not explain it: n ln(width / rms)
+/// nats are saved by an equation that tells where on their plane points lie, and not where
+/// in a slab as thick as it is wide.
+bool isEvident(const FittedPlane& plane, const AdaptiveParameters& parameters)
+{
+  constexpr double THINNEST = 1e-6; // metres
+  const double rms = std::max(std::sqrt(plane.mse), THINNEST);
+  return plane.n * std::log(plane.width / rms) >= parameters.min_evidence;
+}
+
+/// Which regions are parts of a curved surface.
+class CurvedSurfaces {
+public:
+  CurvedSurfaces(const OrganizedPoints& points, const LabelRuns& image,
+                 const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                 const TileRegions& regions, const std::vector<std::uint16_t>& labels)
+  : parameters_(parameters)
+  , regions_(regions)
+  , largest_(parameters.fan_share * static_cast<double>(points.countValid()))
+  , bends_(measureBends(points, labels, regions.planes))
+  {
+    BorderFinder finder(points, regions, labels, parameters.fan_angle * DEGREE);
+    finder.look(image);
+    fan_ = fanSizes(finder.borders, regions, largest_, noise, parameters);
+    goes_on_ = std::move(finder.goes_on);
+  }
+
+  bool has(std::size_t region) const
+  {
+    return bendsItself(bends_[region]) ||
+           (parameters_.fan_parts > 0 &&
+            (fan_[region] >= parameters_.fan_parts || isFacet(region)));
+  }
+
+private:
+  bool bendsItself(const Bend& bend) const
+  {
+    return bend.angle > parameters_.bend_angle * DEGREE &&
+           bend.share > parameters_.bend_share;
+  }
+
+  /// What is left of a fan whose other parts were no planes.
+  bool isFacet(std::size_t region) const
+  {
+    const double n = regions_.planes[region].n;
+    return n <= largest_ && goes_on_[region] >= parameters_.fan_border * std::sqrt(n);
+  }
+
+  const AdaptiveParameters& parameters_;
+  const TileRegions& regions_;
+  double largest_; ///< points of a facet
+  std::vector<Bend> bends_;
+  std::vector<int> fan_;
+  std::vector<int> goes_on_;
+};
+
+} // namespace
+
+void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
+                        const AdaptiveParameters& parameters, TileRegions& regions,
+                        std::vector<std::uint16_t>& labels)
+{
+  const LabelRuns image = findRuns(labels, points.width, 0);
+  const CurvedSurfaces curved(points, image, noise, parameters, regions, labels);
+  std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
+  TileRegions kept;
+  for (std::size_t k = 0; k < regions.planes.size(); ++k)
+    if (!curved.has(k) && isEvident(regions.planes[k], parameters)) {
+      kept.planes.push_back(regions.planes[k]);
+      kept.sums.push_back(regions.sums[k]);
+      id[k + 1] = static_cast<std::uint16_t>(kept.planes.size());
+    }
+  renumber(image, id, labels);
+  regions = std::move(kept);
+}
+
+} // namespace pcl_mrf_planes::adaptive
