@@ -4,7 +4,6 @@
 #include "ours_peer.h"
 #include "parameter_options.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace pcl_mrf_planes::benchmarks {
@@ -13,13 +12,12 @@ namespace {
 
 const apps::ParameterOption& findOption(const std::string& name)
 {
-  const auto& options = apps::parameterOptions(Method::ADAPTIVE);
-  const auto found =
-      std::find_if(options.begin(), options.end(),
-                   [&](const apps::ParameterOption& o) { return o.name == name; });
-  if (found == options.end())
-    throw std::runtime_error("there is no parameter \"" + name + '"');
-  return *found;
+  for (const auto* options :
+       {&apps::commonParameterOptions(), &apps::parameterOptions(Method::ADAPTIVE)})
+    for (const apps::ParameterOption& option : *options)
+      if (option.name == name)
+        return option;
+  throw std::runtime_error("there is no parameter \"" + name + '"');
 }
 
 } // namespace
