@@ -2,131 +2,36 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Turns CSVs of measurements into the tables and plots of doc/accuracy.md.
 
-  accuracy_report.py [--peers CSV] [--machine TEXT]
+  accuracy_report.py [--peers CSV] [--studies CSV] [--inference CSV] [--machine TEXT]
 
-Each option that names a CSV stands for a block of the page: what lies between
-"<!-- begin NAME -->" and "<!-- end NAME -->" is written anew, its plots in doc/pictures.
-Blocks whose CSV is not given stay as they are. Needs python3-matplotlib.
+A CSV stands for one or more blocks of the page: what lies between "<!-- begin NAME -->" and
+"<!-- end NAME -->" is written anew, its plots in doc/pictures. Blocks whose CSV is not given,
+or does not have their lines, stay as they are. Needs python3-matplotlib.
 """
 import argparse
-import collections
-import csv
 import os
-import pathlib
 import re
-import statistics
 
-import matplotlib
-matplotlib.use('Agg')
-import matplotlib.pyplot as plt  # noqa: E402: the backend has to be chosen first
-from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
+import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullFormatter
 
-DOC = pathlib.Path(__file__).resolve().parent.parent / 'doc'
+import accuracy_studies as studies
+from accuracy_tables import (
+    COLOURS, DOC, METHODS, SETS, group, in_digits, is_ours, label_of, labelled,
+    markdown_table, mean_of, mean_over_sets, milliseconds, ordered_sets, ratio_of,
+    read_rows, save_plot, short)
+
 PAGE = DOC / 'accuracy.md'
 
-# Order and names of the sets in tables; others follow by their own names.
-SETS = {
-    'visp_castle_simu': 'castle',
-    'evops_icl': 'evops_icl',
-    'icl_nuim': 'icl_nuim',
-    'mosd': 'mosd',
-    'synpeb': 'synpeb',
-    'synth_kinect': 'synth_kinect',
-    'seven_scenes': 'seven_scenes',
+WHAT = {
+    'visp_castle_simu': 'rendered model of a small castle, no noise',
+    'evops_icl': 'rendered living room, labels by hand (EVOPS)',
+    'icl_nuim': 'rendered rooms, no noise',
+    'mosd': 'Kinect, objects on a table (OSD)',
+    'synpeb': 'simulated rotating laser (SynPEB)',
+    'synth_kinect': 'the rendered scenes through a model of a Kinect',
+    'seven_scenes': 'Kinect, a kitchen at 0.5 to 4 m (7-Scenes)',
 }
-METHODS = {
-    'mrf_planes': 'pcl::MRFPlaneSegmentation',
-    'pcl_multi_plane': 'pcl::OrganizedMultiPlaneSegmentation',
-    'pcl_ransac': 'pcl::SACSegmentation, plane by plane',
-    'opencv_rgbd_plane': 'cv::rgbd::RgbdPlane',
-    'cgal_efficient_ransac': 'CGAL Efficient RANSAC',
-}
-COLOURS = ['#d62728', '#1f77b4', '#2ca02c', '#9467bd', '#ff7f0e', '#8c564b', '#17becf']
-
-
-class Row(dict):
-    """A line of a CSV, numbers by name."""
-
-    def number(self, name):
-        return float(self[name])
-
-
-def read_rows(path):
-    with open(path, newline='') as file:
-        return [Row(row) for row in csv.DictReader(file)]
-
-
-def group(rows, *names):
-    """Rows by the values of some columns, in the order in which these come."""
-    groups = collections.defaultdict(list)
-    for row in rows:
-        key = tuple(row[name] for name in names)
-        groups[key if len(names) > 1 else key[0]].append(row)
-    return groups
-
-
-def labelled(rows):
-    return [row for row in rows if row['pq']]
-
-
-def ordered_sets(rows):
-    """Names of the sets with ground truth."""
-    present = list(dict.fromkeys(row['set'] for row in labelled(rows)))
-    return [name for name in SETS if name in present] + [
-        name for name in present if name not in SETS]
-
-
-def mean_of(rows, column):
-    return statistics.mean(row.number(column) for row in rows)
-
-
-def ratio_of(rows, column='correct'):
-    """Share of the true planes of all frames that were found."""
-    truth = sum(row.number('truth') for row in rows)
-    return sum(row.number(column) for row in rows) / truth if truth else float('nan')
-
-
-def mean_over_sets(rows, value):
-    """Mean over the sets of a value of their rows: each set counts alike."""
-    return statistics.mean(value(frames)
-                           for frames in group(labelled(rows), 'set').values())
-
-
-def milliseconds(rows):
-    times = [row.number('milliseconds') for row in rows
-             if (row['width'], row['height']) == ('640', '480')]
-    return statistics.median(times) if times else float('nan')
-
-
-def short(value):
-    """.814 for 0.814."""
-    return f'{value:.3f}'.lstrip('0')
-
-
-def in_digits(value):
-    return f'{value:.1f}' if value < 10 else f'{value:.0f}'
-
-
-def markdown_table(header, rows):
-    lines = [header, ['---'] * len(header)] + rows
-    return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
-
-
-def save_plot(figure, name):
-    path = DOC / 'pictures' / name
-    # Without the version of matplotlib, so that the same figures give the same file.
-    figure.savefig(path, dpi=110, metadata={'Software': None})
-    plt.close(figure)
-    return path
-
-
-def label_of(method, setting):
-    return f'{METHODS.get(method, method)}, {setting}'
-
-
-def is_ours(method):
-    return method == 'mrf_planes'
-
 
 # --- block: peers ---------------------------------------------------------------------
 
@@ -192,8 +97,7 @@ def plot_tolerance(rows):
     return save_plot(figure, 'peers_tolerance.png')
 
 
-def peers_block(path, machine):
-    rows = read_rows(path)
+def peers_block(rows, machine):
     any_method = next(iter(group(rows, 'method', 'setting').values()))
     timed = [row for row in any_method if (row['width'], row['height']) == ('640', '480')]
     plot_quality_over_time(rows)
@@ -211,11 +115,39 @@ def peers_block(path, machine):
     ])
 
 
+# --- block: result --------------------------------------------------------------------
+
+
+def result_block(rows, _):
+    rows = [row for row in rows if is_ours(row['method']) and row['setting'] == 'default']
+    by_set = group(labelled(rows), 'set')
+    columns = {'PQ': lambda f: short(mean_of(f, 'pq')),
+               'ratio': lambda f: short(ratio_of(f)),
+               'noise': lambda f: f'{mean_of(f, "noise"):.1f}',
+               'recall': lambda f: short(mean_of(f, 'recall')),
+               'clutter': lambda f: short(mean_of(f, 'clutter'))}
+    lines = [[SETS.get(name, name), WHAT.get(name, ''), str(len(by_set[name]))] +
+             [column(by_set[name]) for column in columns.values()]
+             for name in ordered_sets(rows)]
+    lines.append(['mean', '', ''] + [
+        short(mean_over_sets(rows, lambda f: mean_of(f, 'pq'))),
+        short(mean_over_sets(rows, ratio_of)),
+        f'{mean_over_sets(rows, lambda f: mean_of(f, "noise")):.1f}',
+        short(mean_over_sets(rows, lambda f: mean_of(f, 'recall'))),
+        short(mean_over_sets(rows, lambda f: mean_of(f, 'clutter')))])
+    return markdown_table(['set', 'what it is', 'frames'] + list(columns), lines)
+
+
 # --- all blocks -----------------------------------------------------------------------
 
-# Option and mark -> function of the CSV's path and the machine's name.
+# Option -> mark of a block -> function of the CSV's rows and the machine's name. None: the
+# CSV has no such rows.
 BLOCKS = {
-    'peers': peers_block,
+    'peers': {'result': result_block, 'peers': peers_block},
+    'studies': {'ablation': studies.ablation_block,
+                'sensitivity': studies.sensitivity_block,
+                'noise': studies.noise_block},
+    'inference': {'inference': studies.inference_block},
 }
 
 
@@ -230,15 +162,18 @@ def replace_block(page, name, text):
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in BLOCKS:
-        parser.add_argument(f'--{name}', metavar='CSV')
+    for option in BLOCKS:
+        parser.add_argument(f'--{option}', metavar='CSV')
     parser.add_argument('--machine', default='', help='name of the processor')
     options = vars(parser.parse_args())
     (DOC / 'pictures').mkdir(exist_ok=True)
     page = PAGE.read_text()
-    for name, block in BLOCKS.items():
-        if options[name]:
-            page = replace_block(page, name, block(options[name], options['machine']))
+    for option, blocks in BLOCKS.items():
+        rows = read_rows(options[option]) if options[option] else []
+        for name, block in blocks.items():
+            text = block(rows, options['machine']) if rows else None
+            if text:
+                page = replace_block(page, name, text)
     temporary = PAGE.with_suffix('.md.new')
     temporary.write_text(page)
     os.replace(temporary, PAGE)

@@ -2,159 +2,19 @@
 //
 // The random field of Method::ADAPTIVE, whose labels compete block by block.
 #include "adaptive/candidate_field.h"
-#include "reference/inputs.h"
+#include "reference/candidate_fields.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace pcl_mrf_planes::adaptive {
 namespace {
 
-constexpr int SIDE = CandidateBlocks::SIDE;
-constexpr long FORBIDDEN = std::numeric_limits<long>::max() / 4;
-constexpr int ALL_LABELS = 20;
-
-std::size_t blockOf(const CandidateField& field, int x, int y)
-{
-  return field.blocks.at(x / SIDE, y / SIDE);
-}
-
-/// Number of the active block of a point, or CandidateField::SETTLED.
-std::size_t activeOf(const CandidateField& field, int x, int y)
-{
-  return field.number[blockOf(field, x, y)];
-}
-
-/// Cost of a label at a point; FORBIDDEN where it does not compete.
-long dataCost(const CandidateField& field, int x, int y, int label)
-{
-  const std::size_t block = blockOf(field, x, y);
-  const std::size_t a = activeOf(field, x, y);
-  const auto row = static_cast<std::size_t>(y % SIDE);
-  for (std::size_t s = 0; s < field.blocks.count[block]; ++s)
-    if (field.blocks.labelsOf(block)[s] == label)
-      return a == CandidateField::SETTLED ? 0
-                                          : field.data[field.dataRow(a, row) + s]
-                                                .v[static_cast<std::size_t>(x % SIDE)];
-  return FORBIDDEN;
-}
-
-/// Price of a change between a point and the one on its right; 0 between settled blocks.
-long rightEdge(const CandidateField& field, int x, int y)
-{
-  const auto row = static_cast<std::size_t>(y % SIDE);
-  if (const std::size_t a = activeOf(field, x, y); a != CandidateField::SETTLED)
-    return field.weight[a].right[row].v[static_cast<std::size_t>(x % SIDE)];
-  const std::size_t b = activeOf(field, x + 1, y);
-  return b == CandidateField::SETTLED ? 0 : field.weight[b].left.v[row];
-}
-
-/// The same with the one below.
-long downEdge(const CandidateField& field, int x, int y)
-{
-  const auto column = static_cast<std::size_t>(x % SIDE);
-  if (const std::size_t a = activeOf(field, x, y); a != CandidateField::SETTLED)
-    return field.weight[a].down[static_cast<std::size_t>(y % SIDE)].v[column];
-  const std::size_t b = activeOf(field, x, y + 1);
-  return b == CandidateField::SETTLED ? 0 : field.weight[b].above.v[column];
-}
-
-/// Data costs and prices of label changes; FORBIDDEN and more if a label is none of its
-/// block's.
-long energyOf(const CandidateField& field, const OrganizedPoints& points,
-              const std::vector<std::uint16_t>& labels)
-{
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(field.width) +
-           static_cast<std::size_t>(x);
-  };
-  long sum = 0;
-  for (int y = 0; y < field.height; ++y)
-    for (int x = 0; x < field.width; ++x) {
-      if (points.valid[at(x, y)] == 0)
-        continue;
-      sum += dataCost(field, x, y, labels[at(x, y)]);
-      if (x + 1 < field.width && labels[at(x, y)] != labels[at(x + 1, y)])
-        sum += rightEdge(field, x, y);
-      if (y + 1 < field.height && labels[at(x, y)] != labels[at(x, y + 1)])
-        sum += downEdge(field, x, y);
-    }
-  return sum;
-}
-
-OrganizedPoints allValid(int width, int height)
-{
-  OrganizedPoints points;
-  points.resize(width, height);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points.set(i, 0.0f, 0.0f, 1.0f);
-  return points;
-}
-
-/// Random candidates of a block.
-void addBlock(scenes::Random& random, CandidateField& field)
-{
-  CandidateBlocks& blocks = field.blocks;
-  std::vector<std::uint16_t> labels = {0};
-  const auto count = static_cast<std::size_t>(random.integer(3, 8));
-  while (labels.size() < count) {
-    const auto label = static_cast<std::uint16_t>(random.integer(1, ALL_LABELS - 1));
-    if (std::find(labels.begin(), labels.end(), label) == labels.end())
-      labels.push_back(label);
-  }
-  field.number.push_back(field.active.size());
-  field.active.push_back(blocks.count.size());
-  field.first.push_back(field.data.size());
-  field.data.resize(field.data.size() + count * static_cast<std::size_t>(SIDE));
-  field.weight.emplace_back();
-  blocks.count.push_back(static_cast<std::uint8_t>(count));
-  labels.resize(CandidateBlocks::SLOTS, 0);
-  blocks.labels.insert(blocks.labels.end(), labels.begin(), labels.end());
-}
-
-/// Random labels, costs and prices that use up the 16 bits.
-CandidateField randomField(scenes::Random& random, int width, int height)
-{
-  constexpr int LARGEST_DATA = 12767; // and four prices of 5000 make 32767
-  constexpr int LARGEST_PRICE = 5000;
-  CandidateField field;
-  field.width = width;
-  field.height = height;
-  field.blocks.columns = (width + SIDE - 1) / SIDE;
-  field.blocks.rows = (height + SIDE - 1) / SIDE;
-  for (int block = 0; block < field.blocks.columns * field.blocks.rows; ++block)
-    addBlock(random, field);
-  const auto price = [&] {
-    return static_cast<std::int16_t>(
-        random.chance(0.1) ? 0 : random.integer(0, LARGEST_PRICE));
-  };
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t a = activeOf(field, x, y);
-      const auto row = static_cast<std::size_t>(y % SIDE);
-      const auto k = static_cast<std::size_t>(x % SIDE);
-      for (std::size_t s = 0; s < field.blocks.count[a]; ++s)
-        field.data[field.dataRow(a, row) + s].v[k] =
-            static_cast<std::int16_t>(random.integer(0, LARGEST_DATA));
-      BlockWeights& weight = field.weight[a];
-      if (x + 1 < width) {
-        weight.right[row].v[k] = price();
-        if (x % SIDE + 1 == SIDE)
-          field.weight[activeOf(field, x + 1, y)].left.v[row] = weight.right[row].v[k];
-      }
-      if (y + 1 < height) {
-        weight.down[row].v[k] = price();
-        if (y % SIDE + 1 == SIDE)
-          field.weight[activeOf(field, x, y + 1)].above.v[k] = weight.down[row].v[k];
-      }
-    }
-  return field;
-}
+using namespace reference;
 
 /// Least energy of an image of one row or one column, by dynamic programming.
 long leastEnergyOfChain(const CandidateField& field)
@@ -245,27 +105,6 @@ TEST(CandidateFieldTest, PassesLowerTheEnergyOfRandomFields)
   }
 }
 
-/// The field of a scene, and what it was built from.
-struct SceneField {
-  OrganizedPoints points;
-  std::vector<TileLevel> pyramid;
-  NoiseLaw noise;
-  TileRegions regions;
-  CandidateField field;
-
-  SceneField(const char* scene, const scenes::SensorNoise& sensor,
-             const AdaptiveParameters& parameters)
-  : points(reference::toPoints(reference::takePicture(scene, 323, 243, 2, sensor)))
-  , pyramid(buildTilePyramid(points, parameters))
-  , noise(estimateNoise(pyramid, parameters))
-  {
-    assignLocalNoise(pyramid, noise, parameters);
-    regions = mergeTouching(selectTiles(pyramid, noise, parameters), pyramid, noise,
-                            parameters);
-    field = buildField(points, regions, pyramid[0], noise, parameters);
-  }
-};
-
 const std::vector<const char*> SCENES = {"corner", "stairs", "box_on_table", "room",
                                          "step"};
 const std::vector<scenes::SensorNoise> SENSORS = {scenes::SensorNoise::none(),
@@ -277,7 +116,7 @@ TEST(CandidateFieldTest, PassesLowerTheEnergyOfScenes)
 {
   for (const char* scene : SCENES)
     for (const auto& sensor : SENSORS) {
-      const SceneField s(scene, sensor, {});
+      const CloudField s = sceneField(scene, sensor, {});
       const auto energy = [&](int passes) {
         return static_cast<double>(
             energyOf(s.field, s.points, propagateBeliefs(s.field, s.points, passes)));
@@ -292,7 +131,7 @@ TEST(CandidateFieldTest, PassesLowerTheEnergyOfScenes)
 TEST(CandidateFieldTest, WhatHasAChoiceHasNoPlaneAmongItsLabels)
 {
   for (const char* scene : SCENES) {
-    const SceneField s(scene, scenes::SensorNoise::kinect(), {});
+    const CloudField s = sceneField(scene, scenes::SensorNoise::kinect(), {});
     ASSERT_EQ(s.field.number.size(), s.field.blocks.count.size());
     EXPECT_FALSE(s.field.active.empty()) << scene;
     for (std::size_t b = 0; b < s.field.blocks.count.size(); ++b)
@@ -317,7 +156,7 @@ TEST(CandidateFieldTest, PointsOfSettledBlocksLieOnTheirPlane)
   std::size_t all = 0;
   for (const char* scene : SCENES)
     for (const auto& sensor : SENSORS) {
-      const SceneField s(scene, sensor, parameters);
+      const CloudField s = sceneField(scene, sensor, parameters);
       std::vector<double> squares(s.field.number.size(), 0.0); // by block
       for (std::size_t i = 0; i < s.points.size(); ++i) {
         const int x = static_cast<int>(i) % s.points.width;

@@ -6,10 +6,6 @@
 #include "peer_options.h"
 #include "result_table.h"
 
-#include "evaluation/contingency_table.h"
-#include "evaluation/region_counts.h"
-#include "evaluation/segmentation_score.h"
-
 #include <pcl/console/print.h>
 #include <pcl/io/png_io.h>
 
@@ -26,8 +22,7 @@
 namespace {
 
 using namespace pcl_mrf_planes::benchmarks;
-namespace evaluation = pcl_mrf_planes::evaluation;
-using evaluation::LabelImage;
+using pcl_mrf_planes::evaluation::LabelImage;
 
 constexpr double LONG_RUN = 2000.0; // milliseconds: is not repeated
 
@@ -88,13 +83,6 @@ void writeLabels(const std::string& folder, const Result& result,
     throw std::runtime_error("cannot write '" + path + "'");
 }
 
-void score(const LabelImage& truth, const LabelImage& labels, Result& result)
-{
-  const evaluation::ContingencyTable table = evaluation::compareLabels(truth, labels);
-  result.score = evaluation::scoreTable(table);
-  result.curve = evaluation::toleranceCurve(table, 0);
-}
-
 Result runOn(const Frame& frame, const Cloud::ConstPtr& cloud,
              const std::optional<LabelImage>& truth, const PeerRun& run,
              const PeerOptions& options)
@@ -109,7 +97,7 @@ Result runOn(const Frame& frame, const Cloud::ConstPtr& cloud,
   const LabelImage labels = {result.width, result.height,
                              timedRun(run, cloud, options.repeat, result.milliseconds)};
   if (truth)
-    score(*truth, labels, result);
+    scoreAgainst(*truth, labels, result);
   if (!options.label_folder.empty())
     writeLabels(options.label_folder, result, labels);
   return result;

@@ -2,21 +2,18 @@
 //
 // This library, by its class for PCL. The labels come with coefficients and indices, as
 // a program gets them.
+#include "ours_peer.h"
 #include "peer_list.h"
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 
 namespace pcl_mrf_planes::benchmarks {
 
-namespace {
-
-constexpr const char* PAPER = "paper"; // 0: the profile DEFAULT
-
-Labels segment(const Cloud::ConstPtr& cloud, const Values& values, double& milliseconds)
+Labels segmentByClass(const Cloud::ConstPtr& cloud, const Parameters& parameters,
+                      double& milliseconds)
 {
   pcl::MRFPlaneSegmentation<pcl::PointXYZ> segmentation;
-  if (values.at(PAPER) != 0.0)
-    segmentation.setProfile(Profile::PAPER);
+  segmentation.setParameters(parameters);
   segmentation.setNumberOfThreads(1);
   std::vector<pcl::ModelCoefficients> planes;
   std::vector<pcl::PointIndices> inliers;
@@ -30,6 +27,16 @@ Labels segment(const Cloud::ConstPtr& cloud, const Values& values, double& milli
     for (const pcl::index_t i : inliers[k].indices)
       labels[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(k + 1);
   return labels;
+}
+
+namespace {
+
+constexpr const char* PAPER = "paper"; // 0: the profile DEFAULT
+
+Labels segment(const Cloud::ConstPtr& cloud, const Values& values, double& milliseconds)
+{
+  const Profile profile = values.at(PAPER) != 0.0 ? Profile::PAPER : Profile::DEFAULT;
+  return segmentByClass(cloud, Parameters::fromProfile(profile), milliseconds);
 }
 
 } // namespace

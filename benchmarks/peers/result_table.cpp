@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "result_table.h"
 
+#include "evaluation/contingency_table.h"
 #include "evaluation/score_summary.h"
 
 #include <algorithm>
@@ -71,12 +72,20 @@ double medianOf(std::vector<double> values)
 
 } // namespace
 
-ResultFile::ResultFile(const std::string& path)
+void scoreAgainst(const evaluation::LabelImage& truth,
+                  const evaluation::LabelImage& labels, Result& result)
+{
+  const evaluation::ContingencyTable table = evaluation::compareLabels(truth, labels);
+  result.score = evaluation::scoreTable(table);
+  result.curve = evaluation::toleranceCurve(table, 0);
+}
+
+ResultFile::ResultFile(const std::string& path, const std::string& names)
 : path_(path)
 , stream_(partOf(path))
 {
   stream_.imbue(std::locale::classic());
-  stream_ << "method,setting,set,frame,width,height,milliseconds";
+  stream_ << names << ",set,frame,width,height,milliseconds";
   for (const evaluation::ScoreColumn& column : columns())
     stream_ << ',' << column.name;
   for (const double tolerance : evaluation::curveTolerances())

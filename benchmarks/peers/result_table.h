@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "evaluation/label_image.h"
 #include "evaluation/region_counts.h"
 #include "evaluation/segmentation_score.h"
 
@@ -21,12 +22,19 @@ struct Result {
   std::vector<evaluation::CurvePoint> curve;          ///< with the score
 };
 
+/** \brief Hold the labels of a frame against its truth. */
+void scoreAgainst(const evaluation::LabelImage& truth,
+                  const evaluation::LabelImage& labels, Result& result);
+
 /** \brief A CSV that has its name only once it is complete: until then it grows under
  * the name with ".part" behind. */
 class ResultFile {
 public:
-  /** \throws std::runtime_error when it cannot be written */
-  explicit ResultFile(const std::string& path);
+  /** \param[in] path the complete file's
+   * \param[in] names of the columns for Result::method and Result::setting
+   * \throws std::runtime_error when it cannot be written */
+  explicit ResultFile(const std::string& path,
+                      const std::string& names = "method,setting");
   void add(const Result& result);
   /** \throws std::runtime_error when something was not written */
   void finish();

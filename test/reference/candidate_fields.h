@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "reference/candidate_energy.h"
+#include "reference/inputs.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+/** Random fields and fields of scenes for Method::ADAPTIVE. */
+namespace pcl_mrf_planes::adaptive::reference {
+
+constexpr int ALL_LABELS = 20; ///< of random fields
+
+inline OrganizedPoints allValid(int width, int height)
+{
+  OrganizedPoints points;
+  points.resize(width, height);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points.set(i, 0.0f, 0.0f, 1.0f);
+  return points;
+}
+
+/// Labels that a block may have, "no plane" among them.
+struct LabelCount {
+  int least, most; ///< 2 to CandidateBlocks::SLOTS
+};
+
+/// Random candidates of a block.
+inline void addBlock(scenes::Random& random, LabelCount labels_of_a_block,
+                     CandidateField& field)
+{
+  CandidateBlocks& blocks = field.blocks;
+  std::vector<std::uint16_t> labels = {0};
+  const auto count = static_cast<std::size_t>(
+      random.integer(labels_of_a_block.least, labels_of_a_block.most));
+  while (labels.size() < count) {
+    const auto label = static_cast<std::uint16_t>(random.integer(1, ALL_LABELS - 1));
+    if (std::find(labels.begin(), labels.end(), label) == labels.end())
+      labels.push_back(label);
+  }
+  field.number.push_back(field.active.size());
+  field.active.push_back(blocks.count.size());
+  field.first.push_back(field.data.size());
+  field.data.resize(field.data.size() + count * static_cast<std::size_t>(SIDE));
+  field.weight.emplace_back();
+  blocks.count.push_back(static_cast<std::uint8_t>(count));
+  labels.resize(CandidateBlocks::SLOTS, 0);
+  blocks.labels.insert(blocks.labels.end(), labels.begin(), labels.end());
+}
+
+/// Random labels, costs and prices that use up the 16 bits.
+inline CandidateField randomField(scenes::Random& random, int width, int height,
+                                  LabelCount labels_of_a_block = {3, 8})
+{
+  constexpr int LARGEST_DATA = 12767; // and four prices of 5000 make 32767
+  constexpr int LARGEST_PRICE = 5000;
+  CandidateField field;
+  field.width = width;
+  field.height = height;
+  field.blocks.columns = (width + SIDE - 1) / SIDE;
+  field.blocks.rows = (height + SIDE - 1) / SIDE;
+  for (int block = 0; block < field.blocks.columns * field.blocks.rows; ++block)
+    addBlock(random, labels_of_a_block, field);
+  const auto price = [&] {
+    return static_cast<std::int16_t>(
+        random.chance(0.1) ? 0 : random.integer(0, LARGEST_PRICE));
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t a = activeOf(field, x, y);
+      const auto row = static_cast<std::size_t>(y % SIDE);
+      const auto k = static_cast<std::size_t>(x % SIDE);
+      for (std::size_t s = 0; s < field.blocks.count[a]; ++s)
+        field.data[field.dataRow(a, row) + s].v[k] =
+            static_cast<std::int16_t>(random.integer(0, LARGEST_DATA));
+      BlockWeights& weight = field.weight[a];
+      if (x + 1 < width) {
+        weight.right[row].v[k] = price();
+        if (x % SIDE + 1 == SIDE)
+          field.weight[activeOf(field, x + 1, y)].left.v[row] = weight.right[row].v[k];
+      }
+      if (y + 1 < height) {
+        weight.down[row].v[k] = price();
+        if (y % SIDE + 1 == SIDE)
+          field.weight[activeOf(field, x, y + 1)].above.v[k] = weight.down[row].v[k];
+      }
+    }
+  return field;
+}
+
+/// The field of a cloud's first round, and what it was built from.
+struct CloudField {
+  OrganizedPoints points;
+  std::vector<TileLevel> pyramid;
+  NoiseLaw noise;
+  TileRegions regions;
+  CandidateField field;
+
+  CloudField(OrganizedPoints organized_points, AdaptiveParameters parameters)
+  : points(std::move(organized_points))
+  , pyramid(buildTilePyramid(points, parameters))
+  , noise(estimateNoise(pyramid, parameters))
+  {
+    const double correlation = noise.growth.back() / noise.growth.front();
+    parameters.min_points =
+        static_cast<int>(parameters.min_points * correlation * correlation);
+    assignLocalNoise(pyramid, noise, parameters);
+    regions = mergeTouching(selectTiles(pyramid, noise, parameters), pyramid, noise,
+                            parameters);
+    regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
+    field = buildField(points, regions, pyramid[0], noise, parameters);
+  }
+};
+
+inline CloudField sceneField(const char* scene, const scenes::SensorNoise& sensor,
+                             const AdaptiveParameters& parameters)
+{
+  using namespace pcl_mrf_planes::reference;
+  return {toPoints(takePicture(scene, 323, 243, 2, sensor)), parameters};
+}
+
+} // namespace pcl_mrf_planes::adaptive::reference
