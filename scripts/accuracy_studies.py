@@ -19,7 +19,7 @@ PANELS = {
     'Merging': ['merge-tolerance', 'region-tolerance', 'accept-tolerance', 'min-points',
                 'min-evidence', 'join-tolerance', 'join-gap', 'join-seen'],
     'Curved surfaces': ['fan-parts', 'fan-angle', 'fan-share', 'fan-border', 'fan-gap',
-                        'bend-angle', 'bend-share'],
+                        'bend-angle'],
     'Random field': [],  # and all others
 }
 LINES = ['-', '--', ':']

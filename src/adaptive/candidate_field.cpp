@@ -118,17 +118,18 @@ public:
     fillCosts(place);
     dropHopeless(place.block);
     count = blocks.count[place.block];
-    for (std::size_t s = 0; s < count; ++s)
-      if (isSettled(s, count)) {
-        settle(place.block, s);
-        return;
-      }
+    if (const std::size_t label = bestSomewhere(count); isSettled(label, count)) {
+      settle(place.block, label);
+      return;
+    }
     field_.number.back() = field_.active.size();
     field_.active.push_back(place.block);
     field_.first.push_back(field_.data.size());
+    field_.data.resize(field_.data.size() + SIDE * count);
+    BlockRow* out = &field_.data[field_.first.back()];
     for (std::size_t r = 0; r < SIDE; ++r)
       for (std::size_t s = 0; s < count; ++s)
-        field_.data.push_back({costs_[r][s]});
+        (out++)->v = costs_[r][s];
     field_.weight.emplace_back();
     fillWeights(place, field_.weight.back());
   }
@@ -266,20 +267,40 @@ private:
     return (words[0] | words[1]) != 0;
   }
 
-  /// A label that is better than all others everywhere by the price of a change: within
-  /// the block no border pays, and around it less than that is saved. For "no plane" in
-  /// place of a plane it is enough that no hole pays.
+  /// The label that is best at some point: no other can be best everywhere.
+  std::size_t bestSomewhere(std::size_t count) const
+  {
+    for (std::size_t r = 0; r < SIDE; ++r)
+      for (std::size_t k = 0; k < SIDE; ++k) {
+        if (valid_[r][k] == 0)
+          continue;
+        std::size_t best = count > 1 ? 1 : 0;
+        for (std::size_t s = 2; s < count; ++s)
+          best = costs_[r][s][k] < costs_[r][best][k] ? s : best;
+        return costs_[r][0][k] + margin() <= costs_[r][best][k] ? 0 : best;
+      }
+    return 0;
+  }
+
+  std::int16_t margin() const
+  {
+    return units(0.5f * static_cast<float>(parameters_.label_change));
+  }
+
+  /// A label that is better than all others everywhere by half the price of a change: in a
+  /// block of 8x8 points no other labelling saves more at the borders of the block, where
+  /// neighbours may carry any labels, than that. For "no plane" in place of a plane it is
+  /// enough that no hole pays.
   bool isSettled(std::size_t label, std::size_t count) const
   {
-    const BlockRow::Numbers margin =
-        units(static_cast<float>(parameters_.label_change)) + BlockRow::Numbers{};
-    const std::size_t first = label == 0 ? 0 : 1;
-    for (std::size_t r = 0; r < SIDE; ++r) {
-      const BlockRow::Numbers limit = costs_[r][label] + margin;
+    const BlockRow::Numbers ahead = margin() + BlockRow::Numbers{};
+    for (std::size_t s = label == 0 ? 0 : 1; s < count; ++s) {
+      if (s == label)
+        continue;
       BlockRow::Numbers better = {};
-      for (std::size_t s = first; s < count; ++s)
-        better |= s != label ? limit > costs_[r][s] : BlockRow::Numbers{};
-      if (any(better & valid_[r]))
+      for (std::size_t r = 0; r < SIDE; ++r)
+        better |= (costs_[r][label] + ahead > costs_[r][s]) & valid_[r];
+      if (any(better))
         return false;
     }
     return label == 0 || squaresOf(label) <= mostSquares();
@@ -392,6 +413,7 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
   field.height = points.height;
   field.blocks = findCandidates(regions, cells, field.width, field.height,
                                 parameters.support_reach);
+  field.data.reserve(field.blocks.count.size() * static_cast<std::size_t>(SIDE));
   FieldBuilder builder(points, regions, cells, noise, parameters, field);
   for (int row = 0; row < field.blocks.rows; ++row)
     for (int column = 0; column < field.blocks.columns; ++column)
