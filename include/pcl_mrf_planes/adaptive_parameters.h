@@ -48,15 +48,16 @@ struct AdaptiveParameters {
   bool join_coplanar = true;   ///< parts of one plane behind an occluder share a label
   double join_tolerance = 2.0; ///< merge_tolerance of parts that do not touch, > 0
   double join_gap = 2.0;       ///< widest gap over the side of the smaller part, >= 0
-  double join_seen = 0.1; ///< share of the way between them that may be off the plane
+  double join_seen = 0.05; ///< share of the way between them that may be off the plane
   bool join_over_occluders = true; ///< what stands in front does not separate parts
   ///@}
 
   /// \name Curved surfaces
   ///@{
-  int fan_parts = 2; ///< so many small planes in a row are a curved surface, >= 2; 0: off
+  int fan_parts =
+      2; ///< so many small planes in a row are a curved surface, >= 2; 0: off
   double fan_angle = 24.0;  ///< largest crease in such a row, degrees
-  double fan_share = 0.006; ///< planes above this share of the points are never dropped
+  double fan_share = 0.003; ///< planes above this share of the points are never dropped
   double fan_border = 0.4;  ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;     ///< step across a smooth border, sigmas, >= 0
   /// Turn of the normal, by a quadric, that makes a region curved, degrees, times the root
