@@ -173,22 +173,37 @@ public:
     BorderFinder finder(points, regions, labels, parameters.fan_angle * DEGREE);
     finder.look(image);
     fan_ = fanSizes(finder.borders, regions, largest_, noise, parameters);
+    wide_fan_ = fanSizes(finder.borders, regions, WIDE * largest_, noise, parameters);
     goes_on_ = std::move(finder.goes_on);
   }
 
   bool has(std::size_t region) const
   {
     return bendsItself(bends_[region]) ||
-           (parameters_.fan_parts > 0 &&
-            (fan_[region] >= parameters_.fan_parts || isFacet(region)));
+           (parameters_.fan_parts > 0 && (fan_[region] >= parameters_.fan_parts ||
+                                          isFacet(region) || isWideFacet(region)));
   }
 
 private:
   /// A turn counts for as much as the bend stands out of the noise: for all of it where
   /// the quadric explains everything, for a third where that is a tenth of the variance.
+  static double clearTurn(const Bend& bend)
+  {
+    return bend.angle * std::sqrt(bend.share);
+  }
+
   bool bendsItself(const Bend& bend) const
   {
-    return bend.angle * std::sqrt(bend.share) > parameters_.bend_angle * DEGREE;
+    return clearTurn(bend) > parameters_.bend_angle * DEGREE;
+  }
+
+  /// Larger facets, if there is one more of them in the row and they bend a little
+  /// themselves: those of a prism do not.
+  bool isWideFacet(std::size_t region) const
+  {
+    constexpr double A_LITTLE = 2.0 * DEGREE;
+    return wide_fan_[region] > parameters_.fan_parts &&
+           clearTurn(bends_[region]) > A_LITTLE;
   }
 
   /// What is left of a fan whose other parts were no planes.
@@ -200,9 +215,11 @@ private:
 
   const AdaptiveParameters& parameters_;
   const TileRegions& regions_;
-  double largest_; ///< points of a facet
+  static constexpr double WIDE = 3.0; ///< points of a larger facet over those of one
+  double largest_;                    ///< points of a facet
   std::vector<Bend> bends_;
   std::vector<int> fan_;
+  std::vector<int> wide_fan_;
   std::vector<int> goes_on_;
 };
 

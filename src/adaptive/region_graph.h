@@ -32,6 +32,8 @@ public:
 
   void touch(int a, int b)
   {
+    if (!at(neighbours_, a).empty() && at(neighbours_, a).back() == b)
+      return; // along a border of several cells
     at(neighbours_, a).push_back(b);
     at(neighbours_, b).push_back(a);
   }
