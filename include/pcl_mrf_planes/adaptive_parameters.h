@@ -57,9 +57,9 @@ struct AdaptiveParameters {
   int fan_parts =
       2; ///< so many small planes in a row are a curved surface, >= 2; 0: off
   double fan_angle = 24.0; ///< largest crease in such a row, degrees
-  double fan_share =
-      0.003; ///< planes above this share of the points are no facets; three
-             ///< times as large ones may be if they bend themselves
+  /// Planes above this share of the points are no facets; three times as large ones may be
+  /// if they bend themselves. 0 to 1
+  double fan_share = 0.003;
   double fan_border = 0.4; ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;    ///< step across a smooth border, sigmas, >= 0
   /// Turn of the normal, by a quadric, that makes a region curved, degrees, times the root
