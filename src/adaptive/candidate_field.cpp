@@ -378,7 +378,7 @@ private:
 
   std::int16_t units(float cost) const
   {
-    return static_cast<std::int16_t>(cost * units_ + 0.5f);
+    return static_cast<std::int16_t>(std::lrint(cost * units_));
   }
 
   static constexpr int ROUNDING = 5;  ///< terms of a sum, each rounded up at worst
