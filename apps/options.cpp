@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include "command_line.h"
+#include "input_options.h"
 
 #include <boost/program_options.hpp>
 
@@ -28,9 +29,11 @@ po::options_description fileOptions()
       ("label-image", text("FILE.png"), "write the labels as a 16-bit gray picture") //
       ("overlay", text("FILE.png"),
        "write a picture of three panels: colour, depth (invalid points black), "
-       "labels") //
+       "labels")                                                                   //
+      ("masks", text("FOLDER"), "write a picture for each plane into this folder") //
+      ("ply", text("FILE.ply"), "write the points in the colours of their labels") //
       ("format", text("ascii|binary|binary_compressed"),
-       "encoding of OUT.pcd (default: that of IN.pcd)") //
+       "encoding of OUT.pcd (default: that of IN, or binary_compressed)") //
       ("config", text("FILE"),
        "take options from a file with lines name=value; the command line wins");
   return files;
@@ -74,6 +77,8 @@ po::options_description allVisible()
 {
   po::options_description all;
   all.add(fileOptions())
+      .add(inputOptions())
+      .add(batchOptions())
       .add(runOptions())
       .add(describe("Parameters", commonParameterOptions()))
       .add(
@@ -98,11 +103,12 @@ void parseConfiguration(const std::string& path, po::variables_map& values)
   }
 }
 
-PcdFormat parseFormat(const std::string& name)
+io::PcdFormat parseFormat(const std::string& name)
 {
+  using io::PcdFormat;
   for (const PcdFormat format :
        {PcdFormat::ASCII, PcdFormat::BINARY, PcdFormat::BINARY_COMPRESSED})
-    if (name == formatName(format))
+    if (name == io::formatName(format))
       return format;
   throw UsageError("--format is '" + name +
                    "'; choose one of ascii, binary, binary_compressed");
@@ -149,32 +155,71 @@ void checkFileNames(const Options& options)
       {"OUT.pcd", options.output},
       {"--models", options.models},
       {"--label-image", options.label_image},
-      {"--overlay", options.overlay}};
+      {"--overlay", options.overlay},
+      {"--ply", options.ply}};
   for (std::size_t i = 1; i < outputs.size(); ++i)
-    if (sameFile(outputs[i].second, options.input))
+    if (sameFile(outputs[i].second, options.inputs[0]))
       throw UsageError(outputs[i].first + " would overwrite the input '" +
-                       options.input + "'; name another file");
+                       options.inputs[0] + "'; name another file");
   checkDifferent(outputs);
+}
+
+/// The lines of a file that are neither empty nor comments.
+std::vector<std::string> readInputs(const std::string& path)
+{
+  std::error_code error;
+  std::ifstream stream(path);
+  if (!stream || std::filesystem::is_directory(path, error))
+    throw UsageError("--inputs-from: cannot read '" + path + "'; check its name");
+  std::vector<std::string> inputs;
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty() && line[0] != '#')
+      inputs.push_back(line);
+  return inputs;
+}
+
+/// Of a batch all files are inputs, and its folder takes all outputs.
+void readBatchInputs(const std::vector<std::string>& files, Options& options)
+{
+  options.inputs = files;
+  if (!options.batch.inputs_from.empty())
+    for (std::string& input : readInputs(options.batch.inputs_from))
+      options.inputs.push_back(std::move(input));
+  if (options.inputs.empty())
+    throw UsageError("no input; name files, folders or patterns, see --help");
+  for (const auto& output :
+       {std::make_pair("models", options.models),
+        std::make_pair("label-image", options.label_image),
+        std::make_pair("overlay", options.overlay),
+        std::make_pair("masks", options.masks), std::make_pair("ply", options.ply)})
+    if (!output.second.empty())
+      throw UsageError(std::string("--") + output.first +
+                       " is for a single frame; choose the files of many by --write");
 }
 
 void readFileNames(const po::variables_map& values, Options& options)
 {
   const std::vector<std::string> files = givenFiles(values);
+  options.models = given(values, "models");
+  options.label_image = given(values, "label-image");
+  options.overlay = given(values, "overlay");
+  options.masks = given(values, "masks");
+  options.ply = given(values, "ply");
+  if (options.batch.active())
+    return readBatchInputs(files, options);
   if (files.empty())
     throw UsageError("no input file; usage: IN.pcd OUT.pcd [options], see --help");
   if (files.size() > 2)
     throw UsageError("too many files, from '" + files[2] +
-                     "' on; usage: IN.pcd OUT.pcd [options], see --help");
-  options.input = files[0];
+                     "' on; give --output-folder for many, see --help");
+  options.inputs = {files[0]};
   if (files.size() == 2)
     options.output = files[1];
-  options.models = given(values, "models");
-  options.label_image = given(values, "label-image");
-  options.overlay = given(values, "overlay");
   if (options.output.empty() && options.models.empty() && options.label_image.empty() &&
-      options.overlay.empty() && !options.timing)
+      options.overlay.empty() && options.masks.empty() && options.ply.empty() &&
+      !options.timing)
     throw UsageError("nothing to write; name OUT.pcd, or give --models, --label-image, "
-                     "--overlay or --timing");
+                     "--overlay, --masks, --ply, --timing or --output-folder");
   checkFileNames(options);
 }
 
@@ -201,6 +246,8 @@ Options parseOptions(int argc, const char* const argv[])
       options.profile = given(values, "profile");
     if (values.count("repeat") != 0)
       options.repeat = parseInteger("repeat", given(values, "repeat"), 1, MOST_REPEATS);
+    options.read = readInputOptions(values);
+    options.batch = readBatchOptions(values);
     readParameters(values, options);
     readFileNames(values, options);
   }
@@ -213,14 +260,17 @@ Options parseOptions(int argc, const char* const argv[])
 std::string helpText()
 {
   std::ostringstream text;
-  text << "Usage: pcl_mrf_plane_segmentation IN.pcd [OUT.pcd] [options]\n\n"
-          "Segments an organized point cloud into planes. OUT.pcd is the same cloud\n"
-          "with a field label: 0 no plane, k the k-th largest plane. Coordinates are\n"
-          "in metres. It may be the input file, and may be left out when another\n"
-          "output is asked for.\n\n"
+  text << "Usage: pcl_mrf_plane_segmentation IN [OUT.pcd] [options]\n"
+          "       pcl_mrf_plane_segmentation IN... --output-folder FOLDER [options]\n\n"
+          "Segments organized point clouds and depth images into planes. IN is a PCD,\n"
+          "PLY or PCLZF file, a 16-bit depth image, or with --output-folder also a\n"
+          "folder or data set (doc/inputs.md). OUT.pcd is the same cloud with a field\n"
+          "label: 0 no plane, k the k-th largest plane. Coordinates are in metres. It\n"
+          "may be the input file, and may be left out when another output is asked\n"
+          "for.\n\n"
        << allVisible()
        << "\nExit status: 0 success, 1 a file cannot be read, segmented or written,\n"
-          "2 wrong options.\n";
+          "2 wrong options, 3 some frames of many failed, 130 interrupted.\n";
   return text.str();
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "batch_options.h"
 #include "parameter_options.h"
-#include "pcd_header.h"
 
+#include <pcl_mrf_planes/io/cloud_file.h>
+#include <pcl_mrf_planes/io/frame.h>
 #include <pcl_mrf_planes/parameters.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pcl_mrf_planes::apps {
 
@@ -15,12 +18,16 @@ namespace pcl_mrf_planes::apps {
 struct Options {
   bool help = false;
   bool version = false;
-  std::string input;
+  std::vector<std::string> inputs; ///< one, unless a batch is wanted
+  io::ReadOptions read;
+  BatchOptions batch;
   std::string output; ///< empty: none wanted, as for the other files
-  std::optional<PcdFormat> format;
+  std::optional<io::PcdFormat> format;
   std::string models;
   std::string label_image;
   std::string overlay;
+  std::string masks; ///< a folder
+  std::string ply;
   int repeat = 1;
   bool timing = false;
   bool quiet = false;

@@ -216,6 +216,14 @@ void writePicture(const std::string& path, const Picture& picture)
   });
 }
 
+void writeMask(const std::string& path, const std::vector<unsigned char>& mask,
+               int width, int height)
+{
+  writePng(path, [&](const std::string& temporary) {
+    pcl::io::saveCharPNGFile(temporary, mask.data(), width, height, 1);
+  });
+}
+
 void writeLabelImage(const std::string& path, const pcl::PointCloud<pcl::Label>& labels)
 {
   std::vector<unsigned short> values;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cloud_fields.h"
-
+#include <pcl_mrf_planes/io/image.h>
 #include <pcl_mrf_planes/organized_points.h>
 
 #include <pcl/point_cloud.h>
@@ -12,6 +11,8 @@
 #include <vector>
 
 namespace pcl_mrf_planes::apps {
+
+using io::Colour;
 
 /** \brief A picture, row by row from the top. */
 struct Picture {
@@ -49,6 +50,11 @@ OrganizedPoints inSensorFrame(const pcl::PointCloud<pcl::PointXYZ>& cloud,
 /** \brief Write a PNG with 8 bits a channel, whole or not at all.
  * \throws std::runtime_error with what is wrong and what to do */
 void writePicture(const std::string& path, const Picture& picture);
+
+/** \brief Write a gray PNG of 8 bits a point, whole or not at all.
+ * \throws std::runtime_error with what is wrong and what to do */
+void writeMask(const std::string& path, const std::vector<unsigned char>& mask,
+               int width, int height);
 
 /** \brief Write labels as a 16-bit gray PNG, whole or not at all.
  * \throws std::runtime_error with what is wrong and what to do */

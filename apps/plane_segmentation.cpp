@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** \file Command line: segments a PCD file into planes. */
-#include "cloud_fields.h"
-#include "cloud_file.h"
+/** \file Command line: segments clouds and depth images into planes. */
+#include "batch.h"
+#include "frame_outputs.h"
+#include "interruption.h"
 #include "options.h"
-#include "output_file.h"
-#include "pictures.h"
-#include "report_json.h"
-#include "segmented_cloud.h"
+#include "segmented_frame.h"
 #include "table.h"
+
+#include <pcl_mrf_planes/io/frame.h>
 
 #include <pcl/console/print.h>
 
@@ -16,72 +16,45 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace {
 
+using namespace pcl_mrf_planes;
 using namespace pcl_mrf_planes::apps;
 
 constexpr const char* PROGRAM = "pcl_mrf_plane_segmentation";
 constexpr int FAILURE = 1;
 constexpr int WRONG_USAGE = 2;
 
-/// Puts the input's name in front of what is wrong with it.
-template <typename Work>
-auto aboutInput(const Options& options, const Work& work)
+/// The only frame of the input.
+io::FrameSource singleFrame(const Options& options)
 {
-  try {
-    return work();
-  }
-  catch (const std::bad_alloc&) {
-    throw;
-  }
-  catch (const std::exception& error) {
-    throw std::runtime_error("'" + options.input + "' " + error.what());
-  }
+  io::FrameList list = io::listFrames(options.inputs, options.read);
+  if (list.frames.size() != 1)
+    throw std::runtime_error("'" + options.inputs[0] + "' has " +
+                             std::to_string(list.frames.size()) +
+                             " frames; give --output-folder FOLDER to segment them");
+  return std::move(list.frames.front());
 }
 
-/// Before the work: an output that cannot be written is found early.
-void checkOutputs(const Options& options)
+int runSingle(const Options& options)
 {
-  for (const std::string& path :
-       {options.output, options.models, options.label_image, options.overlay})
-    if (!path.empty())
-      checkWritable(path);
-}
-
-void writeOutputs(const Options& options, const CloudFile& file,
-                  const pcl::PointCloud<pcl::PointXYZ>& cloud,
-                  const SegmentedCloud& result)
-{
-  if (!options.models.empty())
-    writeReport(options.models, result, options);
-  if (!options.label_image.empty())
-    writeLabelImage(options.label_image, result.labels);
-  if (!options.overlay.empty())
-    writePicture(options.overlay,
-                 overlay(inSensorFrame(cloud, options.parameters.depth_measure),
-                         colours(file), result.labels));
-  if (!options.output.empty())
-    writeCloud(options.output, withLabels(file, result.labels),
-               options.format.value_or(file.format));
-}
-
-void run(const Options& options)
-{
-  checkOutputs(options);
-  const CloudFile file = readOrganizedCloud(options.input);
-  const auto cloud = aboutInput(options, [&] { return coordinates(file); });
-  const SegmentedCloud result = aboutInput(
-      options, [&] { return segmentCloud(cloud, options.parameters, options.repeat); });
-  writeOutputs(options, file, *cloud, result);
+  takeInterruptions(OnInterruption::END);
+  const OutputFiles files = outputsOf(options);
+  checkOutputs(files);
+  const io::FrameSource source = singleFrame(options);
+  const FrameAndResult all = segmentFrame(source, options);
+  writeOutputs(files, {source, all.frame, *all.cloud, all.result}, options);
   if (options.quiet)
-    return;
-  printPlanes(std::cout, result);
+    return 0;
+  printPlanes(std::cout, all.result);
   if (options.timing)
-    printTiming(std::cout, result.timing);
-  printSummary(std::cout, result, options.parameters);
+    printTiming(std::cout, all.result.timing);
+  printSummary(std::cout, all.result, options.parameters);
   if (!std::cout.flush())
     throw std::runtime_error("cannot write to standard output");
+  return 0;
 }
 
 } // namespace
@@ -97,7 +70,7 @@ int main(int argc, char* argv[])
     else if (options.version)
       std::cout << PROGRAM << ' ' << PCL_MRF_PLANES_VERSION << '\n';
     else
-      run(options);
+      return options.batch.active() ? runBatch(options) : runSingle(options);
     return 0;
   }
   catch (const UsageError& error) {

@@ -92,21 +92,34 @@ Json timingJson(const Timing& timing)
   return result;
 }
 
+Json cameraJson(const io::CameraModel& camera)
+{
+  return {{"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"source", camera.source}};
+}
+
 } // namespace
 
-void writeReport(const std::string& path, const SegmentedCloud& result,
+void writeReport(const std::string& path, const SegmentedFrame& segmented,
                  const Options& options)
 {
+  const SegmentedCloud& result = segmented.result;
   Json report;
   report["program"] = "pcl_mrf_plane_segmentation";
   report["version"] = PCL_MRF_PLANES_VERSION;
-  report["input"] = options.input;
+  report["input"] = segmented.source.input;
+  report["reader"] = segmented.source.reader;
+  if (segmented.frame.camera)
+    report["camera"] = cameraJson(*segmented.frame.camera);
   report["counts"] = countsJson(result);
   report["planes"] = planesJson(result);
   if (!result.report.energy.empty())
     report["energy"] = energyJson(result.report);
   report["parameters"] = parametersJson(options);
-  if (options.timing)
+  if (options.timing || options.batch.active())
     report["timing"] = timingJson(result.timing);
   const std::string text =
       report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -117,6 +130,29 @@ void writeReport(const std::string& path, const SegmentedCloud& result,
       throw std::runtime_error("cannot write '" + path +
                                "'; check the space on the disk");
   });
+}
+
+std::optional<ReportedFrame>
+readReport(const std::string& path, const std::string& input, const Options& options)
+{
+  std::ifstream stream(path, std::ios::binary);
+  const Json report = Json::parse(stream, nullptr, false);
+  try {
+    if (report.is_discarded() || report.at("version") != PCL_MRF_PLANES_VERSION ||
+        report.at("input") != input ||
+        report.at("parameters") != parametersJson(options))
+      return std::nullopt;
+    const Json& counts = report.at("counts");
+    ReportedFrame frame;
+    frame.planes = counts.at("planes");
+    frame.valid_points = counts.at("valid_points");
+    frame.labelled_share = counts.at("labelled_share");
+    frame.ms = report.at("timing").at("total_ms");
+    return frame;
+  }
+  catch (const Json::exception&) {
+    return std::nullopt;
+  }
 }
 
 } // namespace pcl_mrf_planes::apps

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "label_file.h"
 
-#include "cloud_fields.h"
-#include "cloud_file.h"
 #include "png_labels.h"
+
+#include <pcl_mrf_planes/io/cloud_fields.h>
+#include <pcl_mrf_planes/io/cloud_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,14 +104,14 @@ LabelImage readLabels(const std::string& path)
   about(path, [&] { checkIsFile(path); });
   if (fs::path(path).extension() != ".pcd")
     return about(path, [&] { return readLabelPng(path); });
-  const apps::CloudFile file = apps::readOrganizedCloud(path);
+  const io::CloudFile file = io::readOrganizedCloud(path);
   return about(path, [&] { return labelsOf(file.cloud); });
 }
 
 OrganizedPoints readPoints(const std::string& path)
 {
-  const apps::CloudFile file = apps::readOrganizedCloud(path);
-  const auto cloud = about(path, [&] { return apps::coordinates(file); });
+  const io::CloudFile file = io::readOrganizedCloud(path);
+  const auto cloud = about(path, [&] { return io::coordinates(file); });
   const auto first = std::find_if(cloud->begin(), cloud->end(), [](const auto& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
   });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/io/cloud_file.h>
+
 #include <pcl/PCLPointCloud2.h>
 
 #include <Eigen/Core>
@@ -10,13 +12,7 @@
 #include <istream>
 #include <string>
 
-namespace pcl_mrf_planes::apps {
-
-/** \brief How the points of a PCD file are stored; numbered as PCL numbers them. */
-enum class PcdFormat { ASCII = 0, BINARY = 1, BINARY_COMPRESSED = 2 };
-
-/** \brief ascii, binary or binary_compressed. */
-const char* formatName(PcdFormat format);
+namespace pcl_mrf_planes::io {
 
 /** \brief Header of a PCD file whose claims were held against the file's size. */
 struct PcdHeader {
@@ -39,8 +35,9 @@ struct PcdHeader {
  *
  * \param[in] stream the file, from its start, in binary mode
  * \param[in] file_size bytes
+ * \param[in] size rows and columns to take for a file that states none; zero: as stated
  * \throws std::runtime_error with what is wrong and what to do, without the file's name
  */
-PcdHeader readPcdHeader(std::istream& stream, std::uint64_t file_size);
+PcdHeader readPcdHeader(std::istream& stream, std::uint64_t file_size, ImageSize size);
 
-} // namespace pcl_mrf_planes::apps
+} // namespace pcl_mrf_planes::io

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace pcl_mrf_planes::apps {
+namespace pcl_mrf_planes::io {
 
 namespace {
 
@@ -84,6 +84,20 @@ std::uint64_t claimedPoints(const HeaderText& text)
   return static_cast<std::uint64_t>(points);
 }
 
+/// Rows and columns that the user knows, for a file that has its points in one row.
+void takeSize(PcdHeader& header, std::uint64_t points, ImageSize size)
+{
+  if (!size.stated() || (header.cloud.width > 1 && header.cloud.height > 1))
+    return;
+  if (points != size.points())
+    fail("has " + std::to_string(points) + " points, not the " +
+         std::to_string(size.width) + " x " + std::to_string(size.height) +
+         " that --size says; check it");
+  header.cloud.width = static_cast<std::uint32_t>(size.width);
+  header.cloud.height = static_cast<std::uint32_t>(size.height);
+  header.cloud.row_step = header.cloud.width * header.cloud.point_step;
+}
+
 void checkShape(const PcdHeader& header, std::uint64_t points)
 {
   const auto& cloud = header.cloud;
@@ -97,7 +111,10 @@ void checkShape(const PcdHeader& header, std::uint64_t points)
          shape + "); write the file anew");
   if (cloud.width <= 1 || cloud.height <= 1)
     fail("is not organized (" + shape +
-         "); rows and columns as the sensor measured them are needed");
+         "); rows and columns as the sensor measured them are needed: save it before "
+         "points "
+         "are dropped (invalid ones as NaN), or give --size WIDTHxHEIGHT when all are "
+         "there, row by row");
   if (points > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
     fail("has more points than the 2^31 - 1 that can be segmented (" + shape +
          "); cut it into parts");
@@ -183,7 +200,7 @@ const char* formatName(PcdFormat format)
   return "binary_compressed";
 }
 
-PcdHeader readPcdHeader(std::istream& stream, std::uint64_t file_size)
+PcdHeader readPcdHeader(std::istream& stream, std::uint64_t file_size, ImageSize size)
 {
   if (file_size == 0)
     fail("is an empty file; give it a PCD file with points");
@@ -193,6 +210,7 @@ PcdHeader readPcdHeader(std::istream& stream, std::uint64_t file_size)
   parse(text.all_but_points + text.data_line, header);
   if (header.cloud.fields.empty())
     fail("is not a PCD file, or its header is damaged (no line FIELDS)");
+  takeSize(header, claimedPoints(text), size);
   checkShape(header, claimedPoints(text));
   checkFields(header.cloud);
 
@@ -212,7 +230,8 @@ PcdHeader readPcdHeader(std::istream& stream, std::uint64_t file_size)
   const std::string points = "POINTS " + std::to_string(header.points()) + "\n";
   if (!parse(text.all_but_points + points + text.data_line, header))
     fail("has a header that PCL cannot read; write the file anew");
+  takeSize(header, claimedPoints(text), size);
   return header;
 }
 
-} // namespace pcl_mrf_planes::apps
+} // namespace pcl_mrf_planes::io

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cloud_file.h"
+#include <pcl_mrf_planes/io/cloud_file.h>
 
-#include "output_file.h"
+#include "pcd_header.h"
+
+#include <pcl_mrf_planes/io/output_file.h>
 
 #include <pcl/io/pcd_io.h>
 
@@ -19,7 +21,7 @@
 #include <system_error>
 #include <vector>
 
-namespace pcl_mrf_planes::apps {
+namespace pcl_mrf_planes::io {
 
 namespace fs = std::filesystem;
 
@@ -137,7 +139,7 @@ int writeByPcl(const std::string& path, const CloudFile& file, PcdFormat format)
 PcdHeader checkWhole(const std::string& path, const CloudFile& file)
 {
   std::ifstream stream;
-  const PcdHeader header = readPcdHeader(stream, openFile(path, stream));
+  const PcdHeader header = readPcdHeader(stream, openFile(path, stream), {});
   if (header.format == PcdFormat::ASCII && !hasAllLines(stream, header))
     throw std::runtime_error("is incomplete");
   if (header.cloud.width != file.cloud.width ||
@@ -178,12 +180,12 @@ bool samePose(const PcdHeader& header, const CloudFile& file)
 
 } // namespace
 
-CloudFile readOrganizedCloud(const std::string& path)
+CloudFile readOrganizedCloud(const std::string& path, ImageSize size)
 {
   try {
     std::ifstream stream;
-    const std::uint64_t size = openFile(path, stream);
-    PcdHeader header = readPcdHeader(stream, size);
+    const std::uint64_t bytes = openFile(path, stream);
+    PcdHeader header = readPcdHeader(stream, bytes, size);
     readBody(stream, header);
     CloudFile file;
     file.cloud = std::move(header.cloud);
@@ -223,4 +225,4 @@ void writeCloud(const std::string& path, const CloudFile& file, PcdFormat format
   });
 }
 
-} // namespace pcl_mrf_planes::apps
+} // namespace pcl_mrf_planes::io

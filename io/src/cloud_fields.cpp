@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cloud_fields.h"
+#include <pcl_mrf_planes/io/cloud_fields.h>
 
 #include <pcl/common/io.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl_mrf_planes::apps {
+namespace pcl_mrf_planes::io {
 
 namespace {
 
@@ -159,4 +159,4 @@ CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& l
   return result;
 }
 
-} // namespace pcl_mrf_planes::apps
+} // namespace pcl_mrf_planes::io

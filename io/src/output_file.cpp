@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "output_file.h"
+#include <pcl_mrf_planes/io/output_file.h>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -12,7 +13,7 @@
 #include <string>
 #include <system_error>
 
-namespace pcl_mrf_planes::apps {
+namespace pcl_mrf_planes::io {
 
 namespace fs = std::filesystem;
 
@@ -68,6 +69,51 @@ void pour(const fs::path& from, const fs::path& to, const std::string& wanted)
                              "': it does not take the bytes; name another file");
 }
 
+/// Names of the temporary files there are, for a signal handler to remove.
+class PartialFiles {
+public:
+  /// The place of \a path, or none when all are taken.
+  static int add(const fs::path& path)
+  {
+    const std::string& name = path.native();
+    for (int i = 0; i < PLACES && name.size() < LONGEST; ++i) {
+      Place& place = places_[i];
+      bool expected = false;
+      if (!place.taken.compare_exchange_strong(expected, true))
+        continue;
+      std::memcpy(place.name, name.c_str(), name.size() + 1);
+      place.ready = true;
+      return i;
+    }
+    return -1;
+  }
+  static void remove(int i)
+  {
+    if (i < 0)
+      return;
+    places_[i].ready = false;
+    places_[i].taken = false;
+  }
+  static void unlinkAll()
+  {
+    for (Place& place : places_)
+      if (place.ready)
+        ::unlink(place.name);
+  }
+
+private:
+  static constexpr int PLACES = 256;
+  static constexpr std::size_t LONGEST = 4096;
+  struct Place {
+    std::atomic<bool> taken{false};
+    std::atomic<bool> ready{false};
+    char name[LONGEST] = {};
+  };
+  static Place places_[PLACES];
+};
+
+PartialFiles::Place PartialFiles::places_[PartialFiles::PLACES];
+
 /// An empty file that no one else has, gone at the end unless it was renamed: beside
 /// the target, or for a device or pipe in the folder for such files.
 class TemporaryFile {
@@ -84,6 +130,7 @@ public:
           ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (file >= 0) {
         ::close(file);
+        place_ = PartialFiles::add(path_);
         return;
       }
       if (errno != EEXIST)
@@ -97,11 +144,13 @@ public:
   {
     std::error_code ignored;
     fs::remove(path_, ignored);
+    PartialFiles::remove(place_);
   }
   const fs::path& path() const { return path_; }
 
 private:
   fs::path path_;
+  int place_ = -1;
 };
 
 } // namespace
@@ -129,6 +178,11 @@ void writeAtomically(const std::string& path,
   }
 }
 
+void removePartialFiles()
+{
+  PartialFiles::unlinkAll();
+}
+
 void checkWritable(const std::string& path)
 {
   const fs::path target = resolveTarget(path);
@@ -136,4 +190,4 @@ void checkWritable(const std::string& path)
     const TemporaryFile temporary(target, path);
 }
 
-} // namespace pcl_mrf_planes::apps
+} // namespace pcl_mrf_planes::io

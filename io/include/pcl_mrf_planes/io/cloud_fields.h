@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cloud_file.h"
+#include <pcl_mrf_planes/io/cloud_file.h>
+#include <pcl_mrf_planes/io/image.h>
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-namespace pcl_mrf_planes::apps {
-
-/** \brief Red, green and blue, 0 to 255 each. */
-using Colour = std::array<std::uint8_t, 3>;
+namespace pcl_mrf_planes::io {
 
 /** \brief The fields x, y and z (float or double) as a cloud with the sensor pose.
  * \throws std::runtime_error when a field is missing, has another type, or no point has
@@ -30,4 +27,4 @@ std::vector<Colour> colours(const CloudFile& file);
  */
 CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& labels);
 
-} // namespace pcl_mrf_planes::apps
+} // namespace pcl_mrf_planes::io

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "png_labels.h"
+#include "png_file.h"
+
+#include <pcl_mrf_planes/io/image_file.h>
 
 #include <png.h>
 
@@ -10,13 +12,11 @@
 #include <memory>
 #include <stdexcept>
 
-namespace pcl_mrf_planes::evaluation {
+namespace pcl_mrf_planes::io {
 
 namespace {
 
 constexpr std::size_t SIGNATURE_BYTES = 8;
-/// A picture can claim any size in few bytes: more points than this are refused.
-constexpr std::size_t MOST_POINTS = std::size_t{1} << 27;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -70,11 +70,19 @@ public:
   }
 
   /// \param[in] rows start of each row
-  bool readRows(png_bytepp rows)
+  /// \param[in] colour whatever there is becomes red, green, blue of 8 bits each
+  bool readRows(png_bytepp rows, bool colour)
   {
     if (setjmp(failure_.target) != 0)
       return false;
-    png_set_swap(png_); // most significant byte first in the file
+    if (colour) {
+      png_set_expand(png_);
+      png_set_strip_16(png_);
+      png_set_strip_alpha(png_);
+      png_set_gray_to_rgb(png_);
+    }
+    else
+      png_set_swap(png_); // most significant byte first in the file
     png_set_interlace_handling(png_);
     png_read_image(png_, rows);
     png_read_end(png_, nullptr);
@@ -103,7 +111,7 @@ File open(const std::string& path)
   png_byte signature[SIGNATURE_BYTES] = {};
   if (std::fread(signature, 1, SIGNATURE_BYTES, file.get()) != SIGNATURE_BYTES ||
       png_sig_cmp(signature, 0, SIGNATURE_BYTES) != 0)
-    throw std::runtime_error("is not a PNG file; give a 16-bit gray PNG of labels");
+    throw std::runtime_error("is not a PNG file");
   return file;
 }
 
@@ -113,40 +121,57 @@ File open(const std::string& path)
                            "); write it again");
 }
 
-void checkFormat(const Reader& reader)
+void checkSize(const Reader& reader)
 {
-  if (!reader.isGray())
-    throw std::runtime_error("is a picture in colour or with transparency; label "
-                             "images are gray, with 16 bits a point");
-  if (reader.bits() != 16)
-    throw std::runtime_error("has " + std::to_string(reader.bits()) +
-                             " bits a point; label images have 16");
-  if (static_cast<std::size_t>(reader.width()) * reader.height() > MOST_POINTS)
+  if (static_cast<std::size_t>(reader.width()) * reader.height() > MOST_PIXELS)
     throw std::runtime_error("claims " + std::to_string(reader.width()) + " x " +
                              std::to_string(reader.height()) +
                              " points, which is too many; cut it into parts");
 }
 
+void checkFormat(const Reader& reader, const std::string& what)
+{
+  if (!reader.isGray())
+    throw std::runtime_error("is a picture in colour or with transparency; " + what +
+                             " are gray, with 16 bits a point");
+  if (reader.bits() != 16)
+    throw std::runtime_error("has " + std::to_string(reader.bits()) +
+                             " bits a point; " + what + " have 16");
+}
+
+template <typename Pixel>
+Image<Pixel> readPixels(Reader& reader, bool colour)
+{
+  checkSize(reader);
+  Image<Pixel> image(static_cast<int>(reader.width()),
+                     static_cast<int>(reader.height()));
+  std::vector<png_bytep> rows;
+  for (std::size_t start = 0; start < image.pixels.size(); start += reader.width())
+    rows.push_back(reinterpret_cast<png_bytep>(&image.pixels[start]));
+  if (!reader.readRows(rows.data(), colour))
+    throwDamaged(reader);
+  return image;
+}
+
 } // namespace
 
-LabelImage readLabelPng(const std::string& path)
+Image16 readGrayPng(const std::string& path, const char* what)
 {
   const File file = open(path);
   Reader reader(file.get());
   if (!reader.readHeader())
     throwDamaged(reader);
-  checkFormat(reader);
-  LabelImage image;
-  image.width = static_cast<int>(reader.width());
-  image.height = static_cast<int>(reader.height());
-  const std::size_t width = reader.width();
-  image.labels.resize(width * reader.height());
-  std::vector<png_bytep> rows;
-  for (std::size_t start = 0; start < image.size(); start += width)
-    rows.push_back(reinterpret_cast<png_bytep>(&image.labels[start]));
-  if (!reader.readRows(rows.data()))
-    throwDamaged(reader);
-  return image;
+  checkFormat(reader, what);
+  return readPixels<std::uint16_t>(reader, false);
 }
 
-} // namespace pcl_mrf_planes::evaluation
+ColourImage readColourPng(const std::string& path)
+{
+  const File file = open(path);
+  Reader reader(file.get());
+  if (!reader.readHeader())
+    throwDamaged(reader);
+  return readPixels<Colour>(reader, true);
+}
+
+} // namespace pcl_mrf_planes::io
