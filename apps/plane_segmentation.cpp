@@ -12,10 +12,12 @@
 #include <pcl/console/print.h>
 
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace {
@@ -30,6 +32,11 @@ constexpr int WRONG_USAGE = 2;
 /// The only frame of the input.
 io::FrameSource singleFrame(const Options& options)
 {
+  std::error_code error;
+  if (std::filesystem::is_directory(options.inputs[0], error))
+    throw std::runtime_error("'" + options.inputs[0] +
+                             "' is not a file; give --output-folder FOLDER to segment "
+                             "the frames of a folder");
   io::FrameList list = io::listFrames(options.inputs, options.read);
   if (list.frames.size() != 1)
     throw std::runtime_error("'" + options.inputs[0] + "' has " +

@@ -2,6 +2,7 @@
 #include <pcl_mrf_planes/io/cloud_file.h>
 
 #include "pcd_header.h"
+#include "quiet_pcl.h"
 
 #include <pcl_mrf_planes/io/output_file.h>
 
@@ -183,6 +184,7 @@ bool samePose(const PcdHeader& header, const CloudFile& file)
 CloudFile readOrganizedCloud(const std::string& path, ImageSize size)
 {
   try {
+    const QuietPcl quiet;
     std::ifstream stream;
     const std::uint64_t bytes = openFile(path, stream);
     PcdHeader header = readPcdHeader(stream, bytes, size);
@@ -207,6 +209,7 @@ void writeCloud(const std::string& path, const CloudFile& file, PcdFormat format
 {
   writeAtomically(path, [&](const std::string& temporary) {
     try {
+      const QuietPcl quiet;
       if (writeByPcl(temporary, file, format) < 0)
         throw std::runtime_error("was refused by PCL");
       if (!samePose(checkWhole(temporary, file), file)) {

@@ -23,21 +23,29 @@ constexpr const char* READABLE =
     "PCD, PLY, PCLZF, 16-bit gray PNG and PGM, the text depth of ICL-NUIM, the labeled "
     "set of NYU Depth V2 and the range images of SegComp";
 
+/// Takes an ending away, unless it is all there is.
+bool strip(std::string& name, const std::string& ending)
+{
+  if (!endsIn(name, ending) || name.size() == ending.size())
+    return false;
+  name.resize(name.size() - ending.size());
+  return true;
+}
+
 /// What the results of a file are called: its name without the endings we know.
 std::string frameName(const fs::path& file)
 {
   std::string name = file.filename().string();
-  for (const char* ending :
-       {".pcd", ".ply", ".pclzf", ".png", ".pgm", ".mat", ".range", ".ras"})
-    if (endsIn(name, ending) && name.size() > std::string(ending).size()) {
-      name.resize(name.size() - std::string(ending).size());
-      break;
+  for (const char* ending : {".pcd", ".ply", ".mat", ".range", ".ras"})
+    if (strip(name, ending))
+      return name;
+  for (const char* ending : {".png", ".pgm", ".pclzf"})
+    if (strip(name, ending)) {
+      if (!strip(name, ".depth"))
+        strip(name, "_depth");
+      return name;
     }
-  for (const char* ending : {".depth", "_depth"})
-    if (endsIn(name, ending) && name.size() > std::string(ending).size()) {
-      name.resize(name.size() - std::string(ending).size());
-      break;
-    }
+  strip(name, ".depth");
   return name;
 }
 

@@ -53,7 +53,8 @@ Blob readBlob(const std::string& path)
   Blob blob;
   const std::size_t width = wordAt(file, 5);
   const std::size_t height = wordAt(file, 9);
-  blob.type = std::string(&file[13], ::strnlen(&file[13], 16));
+  blob.type = file.substr(13, 16);
+  blob.type.resize(blob.type.find_last_not_of(std::string(" \0", 2)) + 1); // padding
   const std::size_t packed = wordAt(file, 29);
   const std::size_t size = wordAt(file, 33);
   if (width < 1 || height < 1 || width > MOST_PIXELS / height ||

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "file_text.h"
+#include "quiet_pcl.h"
 #include "readers.h"
 
 #include <pcl/io/ply_io.h>
@@ -129,6 +130,7 @@ void takeSize(pcl::PCLPointCloud2& cloud, ImageSize size)
 CloudFile readPly(const std::string& path, ImageSize size)
 {
   check(readHeader(path), path);
+  const QuietPcl quiet;
   CloudFile file;
   int version = 0;
   pcl::PLYReader reader;
