@@ -78,7 +78,7 @@ bool isSevenScenes(const std::string& name)
 bool isSynpeb(const fs::path& file)
 {
   return file.filename().string().compare(0, 3, "pc_") == 0 ||
-         file.string().find("synpeb") != std::string::npos;
+         file.parent_path().string().find("synpeb") != std::string::npos;
 }
 
 /// NAME.color.png and the like for NAME.depth.png.

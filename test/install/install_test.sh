@@ -16,6 +16,13 @@ printed=$("$work/example/example" "$cloud")
 printf '%s\n' "$printed"
 grep -q 'points on' <<<"$printed" || { echo "the example found no plane" >&2; exit 1; }
 
+# The readers as well, where they are built: a folder with the cloud.
+if [ -e "$work/example/frames" ]; then
+  printed=$("$work/example/frames" "$cloud" "$(dirname "$cloud")/scene.pcd")
+  printf '%s\n' "$printed"
+  grep -q '^scene: [0-9]* planes' <<<"$printed"
+fi
+
 # pkg-config gives flags that compile and link the same file.
 libdir=$(dirname "$(find "$work/prefix" -name 'pcl_mrf_planes.pc')")
 export PKG_CONFIG_PATH=$libdir
@@ -26,6 +33,13 @@ c++ -std=c++17 "$source/doc/example/main.cpp" -o "$work/by_pkg_config" $flags $i
   -Wl,-rpath,"${libdir%/pkgconfig}"
 printed=$("$work/by_pkg_config" "$cloud")
 grep -q 'points on' <<<"$printed"
+
+# So do those of the readers.
+flags=$(pkg-config --cflags --libs pcl_mrf_planes_io pcl_mrf_planes)
+# shellcheck disable=SC2086
+c++ -std=c++17 "$source/doc/example/frames.cpp" -o "$work/frames_by_pkg_config" $flags \
+  -Wl,-rpath,"${libdir%/pkgconfig}"
+"$work/frames_by_pkg_config" "$cloud" | grep -q 'planes'
 
 # The installed apps find their library without help.
 "$work/prefix/bin/pcl_mrf_plane_segmentation" --version
