@@ -247,6 +247,7 @@ Options parseOptions(int argc, const char* const argv[])
     if (values.count("repeat") != 0)
       options.repeat = parseInteger("repeat", given(values, "repeat"), 1, MOST_REPEATS);
     options.read = readInputOptions(values);
+    options.wrap = values["wrap"].as<bool>();
     options.batch = readBatchOptions(values);
     readParameters(values, options);
     readFileNames(values, options);

@@ -29,6 +29,7 @@ struct Options {
   std::string masks; ///< a folder
   std::string ply;
   int repeat = 1;
+  bool wrap = false; ///< the last column is the neighbour of the first
   bool timing = false;
   bool quiet = false;
   std::string profile = "default";

@@ -20,6 +20,8 @@ Json parametersJson(const Options& options)
 {
   Json result;
   result["profile"] = options.profile;
+  if (options.wrap)
+    result["wrap"] = true;
   std::vector<ParameterOption> used = parameterOptions(options.parameters.method);
   const std::vector<ParameterOption>& common = commonParameterOptions();
   used.insert(used.end(), common.begin(), common.end());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segmented_frame.h"
 
+#include "wrapped_cloud.h"
+
 #include <pcl_mrf_planes/io/cloud_fields.h>
 
 #include <exception>
@@ -15,7 +17,9 @@ FrameAndResult segmentFrame(const io::FrameSource& source, const Options& option
   all.frame = source.read();
   try {
     all.cloud = io::coordinates(all.frame.file);
-    all.result = segmentCloud(all.cloud, options.parameters, options.repeat);
+    all.result = options.wrap
+                     ? segmentWrapped(*all.cloud, options.parameters, options.repeat)
+                     : segmentCloud(all.cloud, options.parameters, options.repeat);
   }
   catch (const std::bad_alloc&) {
     throw;

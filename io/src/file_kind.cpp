@@ -19,6 +19,9 @@ constexpr std::size_t START = 4096;
 constexpr std::size_t PNG_BIT_DEPTH = 24; // bytes from the start, in IHDR
 constexpr std::size_t PNG_COLOUR_TYPE = 25;
 
+/// 512 by 512 words of range and reflectance, behind a header of text.
+constexpr std::uintmax_t PERCEPTRON_BYTES = std::uintmax_t{4} * 512 * 512;
+
 bool begins(const std::string& text, const std::string& with, std::size_t at = 0)
 {
   return text.compare(at, with.size(), with) == 0;
@@ -101,8 +104,8 @@ FileKind fileKind(const std::string& path)
   if (start.find("FIELDS") != std::string::npos &&
       start.find("WIDTH") != std::string::npos)
     return FileKind::PCD;
-  if (begins(name, "perc.") && start.find(':') < start.find('\n') &&
-      !endsIn(name, "gt-ang"))
+  if (begins(name, "perc.") && !endsIn(name, "gt-ang") &&
+      (start.find(':') < start.find('\n') || fs::file_size(path) > PERCEPTRON_BYTES))
     return FileKind::PERCEPTRON;
   if (endsIn(name, ".depth") && isNumbers(start))
     return FileKind::TEXT_DEPTH;
