@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "batch_summary.h"
 
-#include "option_values.h"
 #include "output_file.h"
 #include "text_cells.h"
 #include "timing.h"
@@ -52,7 +51,7 @@ std::string csvLine(const FrameOutcome& outcome)
   line += has_numbers
               ? std::to_string(numbers.planes) + ',' +
                     std::to_string(numbers.valid_points) + ',' +
-                    printReal(numbers.labelled_share) + ',' + printReal(numbers.ms)
+                    fixed(numbers.labelled_share, 6) + ',' + fixed(numbers.ms, 3)
               : std::string(",,,");
   return line + ',' + quoted(outcome.input) + ',' + quoted(outcome.message) + '\n';
 }

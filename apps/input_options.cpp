@@ -41,10 +41,9 @@ po::options_description inputOptions()
        "size of a cloud whose points are all there, row by row, in a file that does "
        "not "
        "say so") //
-      (
-          "wrap", po::bool_switch(),
-          "the last column of a scan is the neighbour of its first: a lidar's full "
-          "turn") //
+      ("wrap", po::bool_switch(),
+       "the last column of a scan is the neighbour of its first: a lidar's full "
+       "turn") //
       ("filled-depth", po::bool_switch(),
        "of the labeled set of NYU Depth V2 take the depth whose holes were filled");
   return inputs;

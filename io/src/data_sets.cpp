@@ -204,6 +204,13 @@ FrameSource sourceOf(const fs::path& file, const std::string& name,
           }};
 }
 
+FrameSource failingSource(const fs::path& file, const std::string& name,
+                          const std::string& message)
+{
+  return sourceOf(file, name, "none",
+                  [message]() -> Frame { throw std::runtime_error(message); });
+}
+
 FrameSource depthSource(const fs::path& file, const std::string& name,
                         const std::string& reader,
                         const std::optional<CameraModel>& camera,

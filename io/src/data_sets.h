@@ -34,4 +34,8 @@ FrameSource depthSource(const std::filesystem::path& file, const std::string& na
 FrameSource sourceOf(const std::filesystem::path& file, const std::string& name,
                      const std::string& reader, std::function<Frame()> read);
 
+/** \brief A source that cannot be read: what is wrong is said when it is its turn. */
+FrameSource failingSource(const std::filesystem::path& file, const std::string& name,
+                          const std::string& message);
+
 } // namespace pcl_mrf_planes::io

@@ -94,13 +94,6 @@ std::string pictureBeside(const fs::path& file)
   return {};
 }
 
-FrameSource failing(const fs::path& file, const std::string& name,
-                    const std::string& message)
-{
-  return sourceOf(file, name, "none",
-                  [message]() -> Frame { throw std::runtime_error(message); });
-}
-
 std::vector<FrameSource> framesOfNyu(const fs::path& file, const std::string& start,
                                      const ReadOptions& options)
 {
@@ -117,7 +110,7 @@ std::vector<FrameSource> framesOfNyu(const fs::path& file, const std::string& st
     }
   }
   catch (const std::runtime_error& error) {
-    frames.push_back(failing(file, start + frameName(file), error.what()));
+    frames.push_back(failingSource(file, start + frameName(file), error.what()));
   }
   return frames;
 }
@@ -188,14 +181,14 @@ std::vector<FrameSource> framesOfKind(FileKind kind, const fs::path& file,
     return {sourceOf(file, name, "segcomp-perceptron",
                      [path] { return readPerceptron(path); })};
   case FileKind::COMPRESSED:
-    return named ? std::vector<FrameSource>{failing(file, name,
-                                                    "is compressed; unpack it first")}
+    return named ? std::vector<FrameSource>{failingSource(
+                       file, name, "is compressed; unpack it first")}
                  : std::vector<FrameSource>{};
   case FileKind::HDF5:
   case FileKind::OTHER:
     break;
   }
-  return named ? std::vector<FrameSource>{failing(
+  return named ? std::vector<FrameSource>{failingSource(
                      file, name,
                      std::string("is none of the files that can be read (") + READABLE +
                          "); convert it to one of these")}
@@ -215,7 +208,7 @@ std::vector<FrameSource> framesOfFile(const fs::path& file, const std::string& s
     return framesOfKind(kind, file, name, named, options);
   }
   catch (const std::runtime_error& error) { // it cannot be looked into
-    return {failing(file, name, error.what())};
+    return {failingSource(file, name, error.what())};
   }
 }
 

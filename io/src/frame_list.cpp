@@ -53,19 +53,24 @@ public:
       std::move(sequence.begin(), sequence.end(), std::back_inserter(list_.frames));
       return;
     }
-    std::vector<fs::path> folders;
-    const std::vector<fs::path> files = entriesOf(folder, folders);
+    std::vector<fs::path> folders, files;
+    std::error_code unreadable;
+    entriesOf(folder, files, folders, unreadable);
+    if (unreadable)
+      list_.frames.push_back(failingSource(
+          folder,
+          start.empty() ? folder.filename().string()
+                        : start.substr(0, start.size() - 1),
+          "cannot be read: " + unreadable.message() + "; check its permissions"));
     takeFiles(files, start);
     for (const fs::path& below : folders)
       walk(below, start + below.filename().string() + "/");
   }
 
 private:
-  static std::vector<fs::path> entriesOf(const fs::path& folder,
-                                         std::vector<fs::path>& folders)
+  static void entriesOf(const fs::path& folder, std::vector<fs::path>& files,
+                        std::vector<fs::path>& folders, std::error_code& error)
   {
-    std::vector<fs::path> files;
-    std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       std::error_code ignored;
       if (entry.path().filename().string()[0] == '.')
@@ -75,12 +80,8 @@ private:
       else if (entry.is_regular_file(ignored))
         files.push_back(entry.path());
     }
-    if (error)
-      throw std::runtime_error("'" + folder.string() + "' cannot be read: " +
-                               error.message() + "; check its permissions");
     std::sort(files.begin(), files.end());
     std::sort(folders.begin(), folders.end());
-    return files;
   }
 
   void takeFiles(const std::vector<fs::path>& files, const std::string& start)
@@ -135,10 +136,10 @@ std::string placeBelow(const std::string& pattern, const fs::path& match)
 }
 
 /// A path as the name of results: no root, no way up.
-std::string wholeName(const FrameSource& frame)
+std::string wholeName(const fs::path& path)
 {
   std::string name;
-  for (const fs::path& part : fs::path(frame.input).lexically_normal().relative_path())
+  for (const fs::path& part : path.lexically_normal().relative_path())
     if (part != "..")
       name += (name.empty() ? "" : "/") + part.string();
   return name;
@@ -158,7 +159,7 @@ void makeNamesUnique(std::vector<FrameSource>& frames)
     }
   for (FrameSource& frame : kept) {
     if (uses[frame.name] > 1)
-      frame.name = wholeName(frame);
+      frame.name = wholeName(frame.input);
     if (!names.insert(frame.name).second)
       throw std::runtime_error("'" + frame.input +
                                "' and another input would have the "
@@ -168,35 +169,51 @@ void makeNamesUnique(std::vector<FrameSource>& frames)
   frames = std::move(kept);
 }
 
+/// One input's frames into the list.
+void takeInput(const fs::path& path, const std::string& below, bool several,
+               const ReadOptions& options, const std::string& excluded, FrameList& list)
+{
+  const std::size_t before = list.frames.size();
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    for (FrameSource& frame : framesOfFile(path, below, true, options))
+      list.frames.push_back(std::move(frame));
+    return;
+  }
+  if (!excluded.empty() && fs::equivalent(path, excluded, error))
+    throw std::runtime_error("'" + path.string() +
+                             "' would take the results as well; name another folder "
+                             "for them");
+  const fs::path own = fs::weakly_canonical(path, error).filename();
+  FolderWalk(options, excluded, list)
+      .walk(path, below + (several ? own.string() + "/" : std::string()));
+  if (list.frames.size() == before)
+    throw std::runtime_error("'" + path.string() +
+                             "' has no file that can be read as a frame; see "
+                             "doc/inputs.md for what can");
+}
+
 } // namespace
 
 FrameList listFrames(const std::vector<std::string>& inputs, const ReadOptions& options,
                      const std::string& excluded)
 {
   FrameList list;
-  const auto take = [&](const fs::path& path, const std::string& below, bool several) {
-    const std::size_t before = list.frames.size();
-    std::error_code error;
-    if (fs::is_directory(path, error)) {
-      const fs::path own = fs::weakly_canonical(path, error).filename();
-      FolderWalk(options, excluded, list)
-          .walk(path, below + (several ? own.string() + "/" : std::string()));
-      if (list.frames.size() == before)
-        throw std::runtime_error("'" + path.string() +
-                                 "' has no file that can be read as a frame; see "
-                                 "doc/inputs.md for what can");
-      return;
-    }
-    for (FrameSource& frame : framesOfFile(path, below, true, options))
-      list.frames.push_back(std::move(frame));
-  };
+  const bool several = inputs.size() > 1;
   for (const std::string& input : inputs) {
-    std::error_code error;
-    if (fs::exists(input, error) || !isPattern(input))
-      take(input, "", inputs.size() > 1);
-    else
-      for (const std::string& match : matches(input))
-        take(match, placeBelow(input, match), true);
+    try {
+      std::error_code error;
+      if (fs::exists(input, error) || !isPattern(input))
+        takeInput(input, "", several, options, excluded, list);
+      else
+        for (const std::string& match : matches(input))
+          takeInput(match, placeBelow(input, match), true, options, excluded, list);
+    }
+    catch (const std::runtime_error& error) {
+      if (!several)
+        throw;
+      list.frames.push_back(failingSource(input, wholeName(input), error.what()));
+    }
   }
   makeNamesUnique(list.frames);
   return list;

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 namespace pcl_mrf_planes::test {
 
 namespace fs = std::filesystem;
@@ -228,6 +230,20 @@ TEST_F(Batch, TruthOfADataSetIsWrittenForTheEvaluation)
   const Json score = Json::parse(read("s.json"));
   EXPECT_EQ(score["frames"][0]["truth"], 2);
   EXPECT_EQ(score["frames"][0]["correct"], 2) << "wall and floor are found";
+}
+
+TEST_F(Batch, RealFramesAllHavePlanes)
+{
+  const char* data = std::getenv("PCL_MRF_PLANES_DATA");
+  if (data == nullptr)
+    GTEST_SKIP() << "PCL_MRF_PLANES_DATA names no folder";
+  const Outcome outcome = segment(
+      {data, "--output-folder", path("out"), "--jobs", "2", "--write", "overlay"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto table = rows("out/summary.csv");
+  EXPECT_GT(table.size(), 0u);
+  for (const std::string& row : table)
+    EXPECT_EQ(row.find(",0,"), std::string::npos) << "no plane: " << row;
 }
 
 TEST_F(Batch, InputsFromAFileAndByPattern)

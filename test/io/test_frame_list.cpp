@@ -93,11 +93,24 @@ TEST_F(FrameLists, NothingToReadIsAnError)
   EXPECT_THROW(list("*.pcd"), std::runtime_error);
   fs::create_directory(path("empty"));
   EXPECT_THROW(list("empty"), std::runtime_error);
+  EXPECT_THROW(io::listFrames({path("empty")}, {}, path("empty")), std::runtime_error);
   expectError("missing.pcd", {"does not exist"});
   write("text.txt", "hello");
   expectError("text.txt", {"none of the files that can be read", "PCLZF"});
   write("a.pcd.gz", "\x1f\x8b 123");
   expectError("a.pcd.gz", {"compressed", "unpack"});
+}
+
+TEST_F(FrameLists, OneBadInputAmongSeveralIsOneBadFrame)
+{
+  writeCloud("good/1.pcd");
+  fs::create_directory(path("empty"));
+  const io::FrameList frames =
+      io::listFrames({path("good"), path("empty"), path("no*.pcd")}, {});
+  ASSERT_EQ(frames.frames.size(), 3u);
+  EXPECT_NO_THROW(frames.frames[0].read());
+  EXPECT_THROW(frames.frames[1].read(), std::runtime_error);
+  EXPECT_THROW(frames.frames[2].read(), std::runtime_error);
 }
 
 } // namespace pcl_mrf_planes::test

@@ -54,8 +54,9 @@ struct FrameList {
  * \param[in] inputs names of files and folders, or patterns of glob(7)
  * \param[in] options what the readers need to know
  * \param[in] excluded a folder not to walk, that of the results; or empty
- * \throws std::runtime_error when an input does not exist, has no frame or is none, with
- *         its name and what to do
+ * \return among several inputs one that cannot be read stays as a frame that says so
+ * \throws std::runtime_error when the only input is a folder without a frame or a pattern
+ *         that fits nothing, with its name and what to do
  */
 FrameList listFrames(const std::vector<std::string>& inputs, const ReadOptions& options,
                      const std::string& excluded = {});
