@@ -6,8 +6,6 @@
 #include "timing.h"
 
 #include <algorithm>
-#include <fstream>
-#include <stdexcept>
 
 namespace pcl_mrf_planes::apps {
 
@@ -30,22 +28,11 @@ const char* statusName(Status status)
   return "not reached";
 }
 
-/// As RFC 4180 quotes: where a comma, a quote or an end of line is in it.
-std::string quoted(const std::string& text)
-{
-  if (text.find_first_of(",\"\n\r") == std::string::npos)
-    return text;
-  std::string result = "\"";
-  for (const char c : text)
-    result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
-}
-
 std::string csvLine(const FrameOutcome& outcome)
 {
   const bool has_numbers =
       outcome.status == Status::DONE || outcome.status == Status::RESUMED;
-  std::string line = quoted(outcome.name) + ',' + statusName(outcome.status) + ',' +
+  std::string line = csvText(outcome.name) + ',' + statusName(outcome.status) + ',' +
                      outcome.reader + ',';
   const ReportedFrame& numbers = outcome.numbers;
   line += has_numbers
@@ -53,7 +40,7 @@ std::string csvLine(const FrameOutcome& outcome)
                     std::to_string(numbers.valid_points) + ',' +
                     fixed(numbers.labelled_share, 6) + ',' + fixed(numbers.ms, 3)
               : std::string(",,,");
-  return line + ',' + quoted(outcome.input) + ',' + quoted(outcome.message) + '\n';
+  return line + ',' + csvText(outcome.input) + ',' + csvText(outcome.message) + '\n';
 }
 
 /// Middle, least and most of a number of the frames that have it.
@@ -88,13 +75,7 @@ void writeSummary(const std::string& path, const std::vector<FrameOutcome>& outc
       "frame,status,reader,planes,valid_points,labelled_share,ms,input,message\n";
   for (const FrameOutcome& outcome : outcomes)
     text += csvLine(outcome);
-  writeAtomically(path, [&](const std::string& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    if (!stream.flush())
-      throw std::runtime_error("cannot write '" + path +
-                               "'; check the space on the disk");
-  });
+  writeBytes(path, text);
 }
 
 void printSummary(std::ostream& out, const std::vector<FrameOutcome>& outcomes,

@@ -7,5 +7,6 @@ namespace pcl_mrf_planes::apps {
 
 using io::checkWritable;
 using io::writeAtomically;
+using io::writeBytes;
 
 } // namespace pcl_mrf_planes::apps

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -89,13 +88,7 @@ void writeColouredPly(const std::string& path,
       append(body, channel);
     append(body, labels[i].label);
   }
-  writeAtomically(path, [&](const std::string& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << plyHeader(points) << body;
-    if (!stream.flush())
-      throw std::runtime_error("cannot write '" + path +
-                               "'; check the space on the disk");
-  });
+  writeBytes(path, plyHeader(points) + body);
 }
 
 } // namespace pcl_mrf_planes::apps

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <stdexcept>
 
 namespace pcl_mrf_planes::apps {
 
@@ -125,13 +124,7 @@ void writeReport(const std::string& path, const SegmentedFrame& segmented,
     report["timing"] = timingJson(result.timing);
   const std::string text =
       report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-  writeAtomically(path, [&](const std::string& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    if (!stream.flush())
-      throw std::runtime_error("cannot write '" + path +
-                               "'; check the space on the disk");
-  });
+  writeBytes(path, text);
 }
 
 std::optional<ReportedFrame>

@@ -20,4 +20,14 @@ std::string cell(const std::string& text, std::size_t width)
   return (text.size() < width ? std::string(width - text.size(), ' ') : "") + text;
 }
 
+std::string csvText(const std::string& text)
+{
+  if (text.find_first_of(",\"\r\n") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 } // namespace pcl_mrf_planes::apps

@@ -12,4 +12,8 @@ std::string fixed(double value, int decimals);
 /** \brief A cell of a table: blanks in front, at least so wide. */
 std::string cell(const std::string& text, std::size_t width);
 
+/** \brief Text as a cell of a CSV: in quotes where a reader of the file would see something
+ * else than the text (RFC 4180). */
+std::string csvText(const std::string& text);
+
 } // namespace pcl_mrf_planes::apps

@@ -57,17 +57,6 @@ std::vector<std::pair<std::string, double>> flatten(const ResultRow& row)
   return values;
 }
 
-/// In quotes where a reader of the file would see something else than the text.
-std::string csvText(const std::string& text)
-{
-  if (text.find_first_of(",\"\r\n") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 Json number(double value)
 {
   return std::isnan(value) ? Json() : Json(value);
@@ -135,8 +124,8 @@ void writeCsv(const std::string& path, const EvaluationResult& result)
     text += ',' + entry.first;
   text += '\n';
   for (const ResultRow& row : result.rows(true)) {
-    text += row.kind + ',' + csvText(row.set) + ',' + csvText(row.name) + ',' +
-            (row.has_labels ? "1" : "0");
+    text += row.kind + ',' + apps::csvText(row.set) + ',' + apps::csvText(row.name) +
+            ',' + (row.has_labels ? "1" : "0");
     for (const auto& entry : flatten(row))
       text += ',' + (std::isnan(entry.second) ? "" : apps::printReal(entry.second));
     text += '\n';

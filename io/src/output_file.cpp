@@ -178,6 +178,17 @@ void writeAtomically(const std::string& path,
   }
 }
 
+void writeBytes(const std::string& path, const std::string& bytes)
+{
+  writeAtomically(path, [&](const std::string& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << bytes;
+    if (!stream.flush())
+      throw std::runtime_error("cannot write '" + path +
+                               "'; check the space on the disk");
+  });
+}
+
 void removePartialFiles()
 {
   PartialFiles::unlinkAll();

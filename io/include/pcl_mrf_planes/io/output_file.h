@@ -20,6 +20,10 @@ namespace pcl_mrf_planes::io {
 void writeAtomically(const std::string& path,
                      const std::function<void(const std::string& temporary)>& write);
 
+/** \brief Write bytes so that the file is there whole or not at all.
+ * \throws std::runtime_error with a sentence that says what to do */
+void writeBytes(const std::string& path, const std::string& bytes);
+
 /** \brief Remove the temporary files of every writeAtomically() that is under way.
  *
  * For a signal handler that ends the program: calls nothing but unlink(). */
