@@ -4,6 +4,10 @@
 
 #include <pcl_mrf_planes/io/image_file.h>
 
+#include <vtkImageData.h>
+#include <vtkJPEGWriter.h>
+#include <vtkNew.h>
+
 #include <functional>
 
 namespace pcl_mrf_planes::test {
@@ -49,6 +53,31 @@ TEST_F(ImageFiles, PngOfColours)
   ASSERT_EQ(image.pixels.size(), 1200u);
   EXPECT_EQ(image.pixels[40 * 7 + 11], (io::Colour{11, 7, 33}));
   EXPECT_THROW(io::readGrayPng(path("c.png"), "depth images"), std::runtime_error);
+}
+
+TEST_F(ImageFiles, JpegOfColours)
+{
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(40, 30, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  for (int y = 0; y < 30; ++y) // VTK's rows start at the bottom
+    for (int x = 0; x < 40; ++x)
+      for (int c = 0; c < 3; ++c)
+        data->SetScalarComponentFromDouble(x, y, 0, c, y >= 15 ? 200 - 50 * c : 20);
+  vtkNew<vtkJPEGWriter> writer;
+  writer->SetFileName(path("c.jpg").c_str());
+  writer->SetInputData(data);
+  writer->SetQuality(100);
+  writer->Write();
+  const io::ColourImage image = io::readColourImage(path("c.jpg"));
+  ASSERT_EQ(image.width, 40);
+  ASSERT_EQ(image.height, 30);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(image.pixels[40 * 3 + 5][static_cast<std::size_t>(c)], 200 - 50 * c, 6);
+    EXPECT_NEAR(image.pixels[40 * 26 + 5][static_cast<std::size_t>(c)], 20, 6);
+  }
+  write("cut.jpg", read("c.jpg").substr(0, 40));
+  EXPECT_THROW(io::readColourImage(path("cut.jpg")), std::runtime_error);
 }
 
 TEST_F(ImageFiles, PgmInBothByteOrders)
