@@ -60,7 +60,7 @@ struct AdaptiveParameters {
   /// Planes above this share of the points are no facets; three times as large ones may be
   /// if they bend themselves. 0 to 1
   double fan_share = 0.003;
-  double fan_border = 0.4; ///< common border over the side of the smaller part, >= 0
+  double fan_border = 0.5; ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;    ///< step across a smooth border, sigmas, >= 0
   /// Turn of the normal, by a quadric, that makes a region curved, degrees, times the root
   /// of the share of the variance that the quadric explains; 720: off
@@ -69,7 +69,7 @@ struct AdaptiveParameters {
 
   /// \name Random field
   ///@{
-  int support_reach = 2;  ///< a plane competes so far from its tiles, 8 points, and in
+  int support_reach = 1;  ///< a plane competes so far from its tiles, 8 points, and in
                           ///< rounds after the first 8 points from its labels; 1 to 512
   double none_cost = 3.0; ///< data cost of "no plane", sigmas, > 0
   double label_change =

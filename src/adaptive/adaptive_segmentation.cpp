@@ -2,6 +2,7 @@
 #include <pcl_mrf_planes/plane_segmentation.h>
 
 #include "adaptive/candidate_field.h"
+#include "adaptive/cell_labelling.h"
 #include "adaptive/curved_surfaces.h"
 #include "adaptive/noise_estimation.h"
 #include "adaptive/plane_merging.h"
@@ -77,22 +78,17 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
   report.planes_after_merging = regions.planes.size();
   timer.finish("merging");
 
-  // C and D. The random field and its MAP labels; then the planes fitted to them
-  std::vector<std::uint16_t> labels;
-  for (int round = 0; round < parameters.rounds; ++round) {
-    const bool last = round + 1 == parameters.rounds;
-    if (round > 0) // what has got labels is support by now
-      parameters.support_reach = std::min(parameters.support_reach, 1);
-    const CandidateField field =
-        buildField(points, regions, pyramid[0], noise, parameters);
-    timer.finish("field");
-    const int passes = last ? parameters.passes : std::min(parameters.passes, 1);
-    labels = propagateBeliefs(field, points, passes);
-    report.iterations += passes;
-    timer.finish("propagation");
-    regions = refineRegions(points, pyramid[0], noise, parameters, labels);
-    timer.finish("refinement");
-  }
+  // C and D. The random field and its MAP labels, of the cells until their planes are good
+  // and then of the points; and the planes fitted to them
+  for (int round = 1; round < parameters.rounds; ++round)
+    regions = labelCells(regions, pyramid[0], noise, parameters);
+  timer.finish("cells");
+  const CandidateField field = buildField(points, regions, pyramid[0], noise, parameters);
+  timer.finish("field");
+  std::vector<std::uint16_t> labels = propagateBeliefs(field, points, parameters.passes);
+  report.iterations += parameters.passes;
+  timer.finish("propagation");
+  regions = refineRegions(points, pyramid[0], noise, parameters, labels);
   dropDoubtfulPlanes(points, noise, parameters, regions, labels);
   timer.finish("refinement");
 

@@ -15,6 +15,13 @@ double allowedVariance(const FittedPlane& plane, const NoiseLaw& noise,
   return g * g * plane.noise * incidenceFactor(plane) + f * f;
 }
 
+bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
+             const AdaptiveParameters& p)
+{
+  const double tolerance = p.accept_tolerance * p.accept_tolerance;
+  return plane.n >= least && plane.mse <= tolerance * allowedVariance(plane, noise, p);
+}
+
 TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                         const AdaptiveParameters& parameters)
 {

@@ -15,6 +15,11 @@ struct TileRegions {
 double allowedVariance(const FittedPlane& plane, const NoiseLaw& noise,
                        const AdaptiveParameters& p);
 
+/** \brief Whether so many points, at least \a least, fit their plane as well as the noise
+ * allows. */
+bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
+             const AdaptiveParameters& p);
+
 /** \brief Largest tiles that one plane fits: from the top of the pyramid, split where
  * the residual exceeds the noise of that extent. */
 TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,

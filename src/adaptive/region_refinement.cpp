@@ -115,15 +115,6 @@ private:
   std::vector<std::pair<std::uint16_t, int>> votes_;
 };
 
-/// Whether points fit a plane as well as their noise allows.
-bool isPlane(const FittedPlane& plane, const NoiseLaw& noise,
-             const AdaptiveParameters& parameters)
-{
-  const double tolerance = parameters.accept_tolerance * parameters.accept_tolerance;
-  return plane.n >= parameters.min_points &&
-         plane.mse <= tolerance * allowedVariance(plane, noise, parameters);
-}
-
 } // namespace
 
 TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
@@ -139,7 +130,7 @@ TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
   std::vector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
     const FittedPlane plane = fitSums(found.sums[k]);
-    if (!isPlane(plane, noise, parameters))
+    if (!isPlane(plane, parameters.min_points, noise, parameters))
       continue;
     out.planes.push_back(plane);
     out.sums.push_back(found.sums[k]);
