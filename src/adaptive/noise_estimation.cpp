@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/noise_estimation.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_mrf_planes::adaptive {
@@ -20,10 +22,16 @@ double percentile(std::vector<double> v, double p)
   return v[static_cast<std::size_t>(k)];
 }
 
-/// RMS with the three fitted parameters taken out, as if seen from the front
+/// Mean square distance with the three fitted parameters taken out, as if seen from the
+/// front.
+double unbiasedVariance(const FittedPlane& p)
+{
+  return p.mse * p.n / ((p.n - 3) * incidenceFactor(p));
+}
+
 double unbiasedRms(const FittedPlane& p)
 {
-  return std::sqrt(p.mse * p.n / (p.n - 3) / incidenceFactor(p));
+  return std::sqrt(unbiasedVariance(p));
 }
 
 /// rms = a + c z^2 over depth bins, relative least squares, a and c not negative
@@ -86,12 +94,44 @@ namespace {
 /// Level whose tiles the noise is read from.
 constexpr std::size_t BASE = 1;
 
-/// Whether a tile is within the noise as far as it is known.
-bool isFlat(const FittedPlane& plane, double known_growth, const NoiseLaw& noise)
+using Quarters = std::array<FittedPlane, 4>;
+
+/// The planes of the four tiles that a tile is made of. The smallest tiles have none yet.
+Quarters quartersOf(const TileLevel& below, int column, int row,
+                    const AdaptiveParameters& parameters)
 {
-  return plane.n > 3 &&
-         unbiasedRms(plane) <
-             2 * known_growth * noise.small(plane.centroid.norm()) + 1e-12;
+  Quarters planes;
+  std::array<TileSums, 4> sums;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t tile = below.at(2 * column + static_cast<int>(k % 2),
+                                      2 * row + static_cast<int>(k / 2));
+    if (!below.planes.empty())
+      planes[k] = below.planes[tile];
+    else if (isFilled(below, tile, parameters))
+      sums[k] = below.sums[tile];
+    else
+      return planes; // one without plane is enough
+  }
+  if (below.planes.empty())
+    fitPlanes(sums.data(), sums.size(), planes.data());
+  return planes;
+}
+
+/// Mean variance of tiles that are all within the noise as far as it is known; -1: one is
+/// not.
+double meanVariance(const Quarters& planes, double known_growth, const NoiseLaw& noise)
+{
+  double sum = 0;
+  for (const FittedPlane& plane : planes) {
+    if (plane.n <= 3)
+      return -1;
+    const double variance = unbiasedVariance(plane);
+    const double limit = 2 * known_growth * noise.small(plane.centroid.norm()) + 1e-12;
+    if (!(variance < limit * limit))
+      return -1;
+    sum += variance;
+  }
+  return sum / static_cast<double>(planes.size());
 }
 
 /// Growth of the rms distance from a tile's quarters to the tile: one ratio for each tile
@@ -108,16 +148,9 @@ std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
       const FittedPlane& parent = level.planes[level.at(c, r)];
       if (parent.n < 4 || 2 * r + 1 >= below.rows || 2 * c + 1 >= below.columns)
         continue;
-      double variance = 0;
-      bool good = true;
-      for (int k = 0; k < 4 && good; ++k) {
-        const std::size_t at = below.at(2 * c + k % 2, 2 * r + k / 2);
-        const FittedPlane child =
-            below.planes.empty() ? fitTile(below, at, parameters) : below.planes[at];
-        good = isFlat(child, known_growth, noise);
-        variance += good ? unbiasedRms(child) * unbiasedRms(child) / 4 : 0;
-      }
-      if (good)
+      const double variance =
+          meanVariance(quartersOf(below, c, r, parameters), known_growth, noise);
+      if (variance >= 0)
         ratios.push_back(
             unbiasedRms(parent) /
             std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));

@@ -22,38 +22,96 @@ bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
   return plane.n >= least && plane.mse <= tolerance * allowedVariance(plane, noise, p);
 }
 
+namespace {
+
+/// Takes tiles level by level, where none of a larger one lies yet.
+class TileSelection {
+public:
+  TileSelection(const TileLevel& cells, const NoiseLaw& noise,
+                const AdaptiveParameters& parameters)
+  : cells_(cells)
+  , noise_(noise)
+  , parameters_(parameters)
+  {
+    regions.cell_region.assign(cells.sums.size(), -1);
+  }
+
+  void addLevel(const TileLevel& level)
+  {
+    for (int row = 0; row < level.rows; ++row) {
+      findFree(level, row);
+      if (level.planes.empty()) {
+        planes_.resize(free_.size());
+        fitPlanes(sums_.data(), sums_.size(), planes_.data());
+      }
+      for (std::size_t k = 0; k < free_.size(); ++k) {
+        const FittedPlane& plane =
+            level.planes.empty() ? planes_[k] : level.planes[level.at(free_[k], row)];
+        if (isFlat(plane))
+          add(level, free_[k], row, plane);
+      }
+    }
+  }
+
+  TileRegions regions;
+
+private:
+  /// Columns of a row of tiles that no larger tile covers.
+  void findFree(const TileLevel& level, int row)
+  {
+    const int k = level.side / CELL;
+    free_.clear();
+    sums_.clear();
+    for (int column = 0; column < level.columns; ++column) {
+      const std::size_t tile = level.at(column, row);
+      if (regions.cell_region[cells_.at(column * k, row * k)] >= 0 ||
+          !isFilled(level, tile, parameters_))
+        continue;
+      free_.push_back(column);
+      if (level.planes.empty())
+        sums_.push_back(level.sums[tile]);
+    }
+  }
+
+  bool isFlat(const FittedPlane& plane) const
+  {
+    if (plane.n < 4)
+      return false;
+    const double tolerance = parameters_.tile_tolerance * parameters_.tile_tolerance;
+    const double mse = plane.mse * plane.n / (plane.n - 3);
+    return mse <= tolerance * allowedVariance(plane, noise_, parameters_);
+  }
+
+  void add(const TileLevel& level, int column, int row, const FittedPlane& plane)
+  {
+    const int id = static_cast<int>(regions.planes.size());
+    regions.planes.push_back(plane);
+    regions.sums.push_back(level.sums[level.at(column, row)]);
+    const int k = level.side / CELL;
+    for (int r = row * k; r < std::min((row + 1) * k, cells_.rows); ++r)
+      for (int c = column * k; c < std::min((column + 1) * k, cells_.columns); ++c)
+        regions.cell_region[cells_.at(c, r)] = id;
+  }
+
+  const TileLevel& cells_;
+  const NoiseLaw& noise_;
+  const AdaptiveParameters& parameters_;
+  // of the row at hand
+  std::vector<int> free_;
+  std::vector<TileSums> sums_;
+  std::vector<FittedPlane> planes_;
+};
+
+} // namespace
+
 TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                         const AdaptiveParameters& parameters)
 {
-  TileRegions out;
-  const TileLevel& cells = pyramid[0];
-  out.cell_region.assign(cells.sums.size(), -1);
+  TileSelection selection(pyramid[0], noise, parameters);
   const auto smallest = static_cast<std::size_t>(parameters.smallest_level);
-  for (std::size_t l = pyramid.size(); l-- > smallest;) {
-    const TileLevel& level = pyramid[l];
-    const int k = 1 << l;
-    for (int r = 0; r < level.rows; ++r)
-      for (int c = 0; c < level.columns; ++c) {
-        if (out.cell_region[cells.at(c * k, r * k)] >= 0)
-          continue;
-        const FittedPlane plane = level.planes.empty()
-                                      ? fitTile(level, level.at(c, r), parameters)
-                                      : level.planes[level.at(c, r)];
-        if (plane.n < 4)
-          continue;
-        const double tolerance = parameters.tile_tolerance * parameters.tile_tolerance;
-        const double mse = plane.mse * plane.n / (plane.n - 3);
-        if (mse > tolerance * allowedVariance(plane, noise, parameters))
-          continue;
-        const int id = static_cast<int>(out.planes.size());
-        out.planes.push_back(plane);
-        out.sums.push_back(level.sums[level.at(c, r)]);
-        for (int j = r * k; j < std::min((r + 1) * k, cells.rows); ++j)
-          for (int i = c * k; i < std::min((c + 1) * k, cells.columns); ++i)
-            out.cell_region[cells.at(i, j)] = id;
-      }
-  }
-  return out;
+  for (std::size_t l = pyramid.size(); l-- > smallest;)
+    selection.addLevel(pyramid[l]);
+  return std::move(selection.regions);
 }
 
 namespace {
@@ -91,36 +149,66 @@ public:
   {
     for (int a = 0; a < regions_.size(); ++a)
       if (regions_.find(a) == a)
-        for (const int b : regions_.neighbours(a))
+        regions_.forEachNeighbour(a, [&](int b) {
           if (a < b)
             offer(a, b);
+        });
+    consider();
     bool merged = false;
-    while (!queue_.empty()) {
-      const Candidate next = queue_.top();
-      queue_.pop();
-      const int a = regions_.find(next.a);
-      const int b = regions_.find(next.b);
-      if (a == b)
-        continue;
-      if (regions_.tiles(a) + regions_.tiles(b) != next.tiles) {
-        offer(a, b); // either has grown since: how alike are they now?
-        continue;
-      }
-      regions_.merge(a, b);
+    Candidate next;
+    while (popCurrent(next)) {
+      regions_.merge(next.a, next.b);
       merged = true;
     }
     return merged;
   }
 
 private:
+  /// The most alike pair as things stand. Those above it that have grown since they were
+  /// looked at are looked at again, as many at once as there are.
+  bool popCurrent(Candidate& next)
+  {
+    while (!queue_.empty()) {
+      next = queue_.top();
+      queue_.pop();
+      const int a = regions_.find(next.a);
+      const int b = regions_.find(next.b);
+      if (a == b)
+        continue;
+      const bool current = regions_.tiles(a) + regions_.tiles(b) == next.tiles;
+      if (!current)
+        offer(a, b);
+      else if (pairs_.empty())
+        return true;
+      else
+        queue_.push(next);
+      if (current || queue_.empty())
+        consider();
+    }
+    return false;
+  }
+
   void offer(int a, int b)
   {
-    const double cost =
-        dissimilarity(regions_.plane(a), regions_.plane(b),
-                      regions_.sums(a) + regions_.sums(b), noise_, parameters_);
-    if (cost >= 0 && cost <= limit_)
-      queue_.push({cost, std::min(a, b), std::max(a, b),
-                   regions_.tiles(a) + regions_.tiles(b)});
+    pairs_.push_back({0.0, std::min(a, b), std::max(a, b),
+                      regions_.tiles(a) + regions_.tiles(b)});
+    joint_.push_back(regions_.sums(a) + regions_.sums(b));
+  }
+
+  /// Queues the pairs on offer that may be one plane.
+  void consider()
+  {
+    planes_.resize(pairs_.size());
+    fitPlanes(joint_.data(), joint_.size(), planes_.data());
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      Candidate& pair = pairs_[k];
+      pair.cost = dissimilarity(regions_.plane(pair.a), regions_.plane(pair.b),
+                                planes_[k], noise_, parameters_);
+      if (pair.cost >= 0 && pair.cost <= limit_)
+        queue_.push(pair);
+    }
+    pairs_.clear();
+    joint_.clear();
   }
 
   Regions& regions_;
@@ -128,6 +216,10 @@ private:
   const AdaptiveParameters& parameters_;
   double limit_;
   std::priority_queue<Candidate> queue_;
+  // on offer
+  std::vector<Candidate> pairs_;
+  std::vector<TileSums> joint_;
+  std::vector<FittedPlane> planes_;
 };
 
 } // namespace
