@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_graph.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <queue>
+#include <cstdint>
+#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -133,7 +136,63 @@ void findNeighbours(const TileRegions& tiles, const TileLevel& cells, Regions& r
     }
 }
 
-/// Pairs of regions, the most alike first.
+/// A queue of numbers by cost, the least first, those of costs within three per cent of one
+/// another as one: the last of them first. Costs at or below the least power of two are
+/// one, too. All operations are O(1) but for steps over empty buckets.
+class CostQueue {
+public:
+  explicit CostQueue(float most)
+  : newest_(bucketOf(most) + 1, NOTHING)
+  , first_(newest_.size())
+  {}
+
+  bool empty()
+  {
+    while (first_ < newest_.size() && newest_[first_] == NOTHING)
+      ++first_;
+    return first_ == newest_.size();
+  }
+
+  void push(float cost, std::uint32_t number)
+  {
+    const std::size_t bucket = bucketOf(cost);
+    if (number >= older_.size())
+      older_.resize(number + 1);
+    older_[number] = newest_[bucket];
+    newest_[bucket] = number;
+    first_ = std::min(first_, bucket);
+  }
+
+  /// Of a queue that is not empty, as empty() has just told.
+  std::uint32_t pop()
+  {
+    const std::uint32_t number = newest_[first_];
+    newest_[first_] = older_[number];
+    return number;
+  }
+
+private:
+  static constexpr std::uint32_t NOTHING = UINT32_MAX;
+
+  /// Exponent and upper bits of the mantissa: their order is that of the numbers.
+  static std::size_t bucketOf(float cost)
+  {
+    constexpr float LEAST = 1.0F / (1U << 20U);
+    constexpr std::uint32_t LEFT_OUT = 18; // of the 23 bits of the mantissa
+    const auto bits = [](float number) {
+      std::uint32_t word = 0;
+      std::memcpy(&word, &number, sizeof(word));
+      return word >> LEFT_OUT;
+    };
+    return bits(std::max(cost, LEAST)) - bits(LEAST);
+  }
+
+  std::vector<std::uint32_t> newest_; ///< of each bucket
+  std::vector<std::uint32_t> older_;  ///< the next of the same bucket, by number
+  std::size_t first_;                 ///< no bucket before it holds any
+};
+
+/// Merges pairs of regions, the most alike first.
 class Agglomeration {
 public:
   Agglomeration(Regions& regions, const NoiseLaw& noise,
@@ -142,11 +201,14 @@ public:
   , noise_(noise)
   , parameters_(parameters)
   , limit_(parameters.merge_tolerance * parameters.merge_tolerance)
+  , queue_(static_cast<float>(limit_))
   {}
 
   /// Merges until no two neighbours are one plane. \return whether any were
   bool run()
   {
+    pairs_.clear();
+    looked_at_ = 0;
     for (int a = 0; a < regions_.size(); ++a)
       if (regions_.find(a) == a)
         regions_.forEachNeighbour(a, [&](int b) {
@@ -155,7 +217,7 @@ public:
         });
     consider();
     bool merged = false;
-    Candidate next;
+    Pair next;
     while (popCurrent(next)) {
       regions_.merge(next.a, next.b);
       merged = true;
@@ -164,13 +226,20 @@ public:
   }
 
 private:
+  /// Two regions, as they were when they were offered.
+  struct Pair {
+    int a, b;
+    int tiles; ///< of both: grows with every merge
+    float cost;
+  };
+
   /// The most alike pair as things stand. Those above it that have grown since they were
   /// looked at are looked at again, as many at once as there are.
-  bool popCurrent(Candidate& next)
+  bool popCurrent(Pair& next)
   {
     while (!queue_.empty()) {
-      next = queue_.top();
-      queue_.pop();
+      const std::uint32_t number = queue_.pop();
+      next = pairs_[number];
       const int a = regions_.find(next.a);
       const int b = regions_.find(next.b);
       if (a == b)
@@ -178,10 +247,10 @@ private:
       const bool current = regions_.tiles(a) + regions_.tiles(b) == next.tiles;
       if (!current)
         offer(a, b);
-      else if (pairs_.empty())
+      else if (looked_at_ == pairs_.size())
         return true;
       else
-        queue_.push(next);
+        queue_.push(next.cost, number);
       if (current || queue_.empty())
         consider();
     }
@@ -190,36 +259,38 @@ private:
 
   void offer(int a, int b)
   {
-    pairs_.push_back({0.0, std::min(a, b), std::max(a, b),
-                      regions_.tiles(a) + regions_.tiles(b)});
-    joint_.push_back(regions_.sums(a) + regions_.sums(b));
+    if (pairs_.size() - looked_at_ == AT_ONCE)
+      consider();
+    joint_[pairs_.size() - looked_at_] = regions_.sums(a) + regions_.sums(b);
+    pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
   }
 
-  /// Queues the pairs on offer that may be one plane.
+  /// Queues the new pairs that may be one plane.
   void consider()
   {
-    planes_.resize(pairs_.size());
-    fitPlanes(joint_.data(), joint_.size(), planes_.data());
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      Candidate& pair = pairs_[k];
-      pair.cost = dissimilarity(regions_.plane(pair.a), regions_.plane(pair.b),
-                                planes_[k], noise_, parameters_);
-      if (pair.cost >= 0 && pair.cost <= limit_)
-        queue_.push(pair);
+    fitPlanes(joint_.data(), pairs_.size() - looked_at_, planes_.data());
+    for (const FittedPlane* plane = planes_.data(); looked_at_ < pairs_.size();
+         ++looked_at_, ++plane) {
+      Pair& pair = pairs_[looked_at_];
+      const double cost = dissimilarity(regions_.plane(pair.a), regions_.plane(pair.b),
+                                        *plane, noise_, parameters_);
+      pair.cost = static_cast<float>(cost);
+      if (cost >= 0 && cost <= limit_)
+        queue_.push(pair.cost, static_cast<std::uint32_t>(looked_at_));
     }
-    pairs_.clear();
-    joint_.clear();
   }
+
+  static constexpr std::size_t AT_ONCE = 64; ///< pairs that stay in the nearest cache
 
   Regions& regions_;
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
   double limit_;
-  std::priority_queue<Candidate> queue_;
-  // on offer
-  std::vector<Candidate> pairs_;
-  std::vector<TileSums> joint_;
-  std::vector<FittedPlane> planes_;
+  CostQueue queue_;
+  std::vector<Pair> pairs_;   ///< in the order in which they were offered
+  std::size_t looked_at_ = 0; ///< so many of them, the first
+  std::array<TileSums, AT_ONCE> joint_; ///< of the others
+  std::array<FittedPlane, AT_ONCE> planes_;
 };
 
 } // namespace
