@@ -80,14 +80,6 @@ void fillRun(const LabelRun& run, std::uint16_t label,
             labels.begin() + static_cast<std::ptrdiff_t>(run.end), label);
 }
 
-void renumber(const LabelRuns& image, const std::vector<std::uint16_t>& id,
-              std::vector<std::uint16_t>& labels)
-{
-  for (const LabelRun& run : image.runs)
-    if (id[run.label] != run.label)
-      fillRun(run, id[run.label], labels);
-}
-
 RunParts connectRuns(const LabelRuns& image)
 {
   Roots roots(image.runs.size());

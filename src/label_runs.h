@@ -31,10 +31,6 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
 void fillRun(const LabelRun& run, std::uint16_t label,
              std::vector<std::uint16_t>& labels);
 
-/// Gives every label its new number, id[label]. O(points whose label changes)
-void renumber(const LabelRuns& image, const std::vector<std::uint16_t>& id,
-              std::vector<std::uint16_t>& labels);
-
 /// 4-connected parts of a label image, in the order of their first points.
 struct RunParts {
   std::vector<int> part_of_run;

@@ -69,8 +69,7 @@ struct AdaptiveParameters {
 
   /// \name Random field
   ///@{
-  int support_reach = 1;  ///< a plane competes so far from its tiles, 8 points, and in
-                          ///< rounds after the first 8 points from its labels; 1 to 512
+  int support_reach = 1; ///< a plane competes so far from its cells, 4 points; 1 to 512
   double none_cost = 3.0; ///< data cost of "no plane", sigmas, > 0
   double label_change =
       1.5; ///< price of a label change on a smooth surface, sigmas, >= 0

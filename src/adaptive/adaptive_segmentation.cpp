@@ -8,6 +8,7 @@
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_refinement.h"
 #include "adaptive/tile_pyramid.h"
+#include "region_gathering.h"
 #include "stage_timer.h"
 
 #include <algorithm>
@@ -36,12 +37,22 @@ double pointsPerIndependentOne(const NoiseLaw& noise)
   return correlation * correlation;
 }
 
-/// Labels from 1 with 0 for none, as label planes from 0 with NO_PLANE for none.
-std::vector<std::uint16_t> planeIndices(std::vector<std::uint16_t> labels)
+/// Runs of labels from 1, with 0 for none, as those of label planes from 0.
+LabelRuns planeRuns(const LabelRuns& image)
 {
-  for (std::uint16_t& label : labels)
-    label = label == 0 ? NO_PLANE : static_cast<std::uint16_t>(label - 1);
-  return labels;
+  LabelRuns out;
+  out.width = image.width;
+  out.runs.reserve(image.runs.size());
+  out.rows.reserve(image.rows.size());
+  out.rows.push_back(0);
+  for (std::size_t row = 0; row + 1 < image.rows.size(); ++row) {
+    for (std::size_t k = image.rows[row]; k < image.rows[row + 1]; ++k)
+      if (const LabelRun& run = image.runs[k]; run.label != 0)
+        out.runs.push_back(
+            {run.begin, run.end, static_cast<std::uint16_t>(run.label - 1)});
+    out.rows.push_back(out.runs.size());
+  }
+  return out;
 }
 
 } // namespace
@@ -85,17 +96,21 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
   timer.finish("cells");
   const CandidateField field = buildField(points, regions, pyramid[0], noise, parameters);
   timer.finish("field");
-  std::vector<std::uint16_t> labels = propagateBeliefs(field, points, parameters.passes);
+  LabelledPoints image(propagateBeliefs(field, points, parameters.passes), points.width);
   report.iterations += parameters.passes;
   timer.finish("propagation");
-  regions = refineRegions(points, pyramid[0], noise, parameters, labels);
-  dropDoubtfulPlanes(points, noise, parameters, regions, labels);
+  FittedRegions fitted =
+      refineRegions(points, pyramid[0], noise, parameters, image);
+  dropDoubtfulPlanes(points, noise, parameters, fitted, image);
   timer.finish("refinement");
 
-  const std::vector<Plane> planes(regions.planes.begin(), regions.planes.end());
-  result.regions = gatherRegions(points, planes, planeIndices(std::move(labels)),
+  const std::vector<Plane> planes(fitted.planes.begin(), fitted.planes.end());
+  const LabelRuns runs = planeRuns(image.runs);
+  result.regions = gatherRegions(points, planes, runs,
+                                 {fitted.sums.begin(), fitted.sums.end()},
                                  all_parameters.min_inliers, all_parameters.min_area);
-  result.labels = regionLabels(points, result.regions);
+  result.labels = std::move(image.labels);
+  paintRegions(runs, result.regions, planes.size(), result.labels);
   timer.finish("regions");
   report.count(points, result.regions);
   return result;

@@ -4,10 +4,20 @@
 
 namespace pcl_mrf_planes::adaptive {
 
-/** \brief Planes found, and which plane each smallest tile belongs to (-1: none). */
-struct TileRegions {
+/** \brief Planes and the sums of their points. */
+struct FittedRegions {
   std::vector<TileSums> sums;
   std::vector<FittedPlane> planes;
+
+  void add(const FittedPlane& plane, const TileSums& sum)
+  {
+    planes.push_back(plane);
+    sums.push_back(sum);
+  }
+};
+
+/** \brief Planes found, and which plane each smallest tile belongs to (-1: none). */
+struct TileRegions : FittedRegions {
   std::vector<int> cell_region; ///< per tile of level 0
 };
 
