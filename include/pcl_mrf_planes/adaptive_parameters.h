@@ -75,7 +75,7 @@ struct AdaptiveParameters {
       1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
   double step_sigmas = 6.0; ///< depth step over which that price falls, sigmas, > 0
   double min_weight = 0.15; ///< share of the price that is left across a step, 0 to 1
-  int passes = 2; ///< of the last round, down the image and up again; those before make
+  int passes = 1; ///< of the last round, down the image and up again; those before make
                   ///< one at most; 0 to 100000
   int rounds = 2; ///< of labelling and refitting, 1 to 10
   ///@}
