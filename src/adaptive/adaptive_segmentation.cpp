@@ -94,7 +94,7 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
   for (int round = 1; round < parameters.rounds; ++round)
     regions = labelCells(regions, pyramid[0], noise, parameters);
   timer.finish("cells");
-  const CandidateField field = buildField(points, regions, pyramid[0], noise, parameters);
+  const CandidateField field = buildField(points, regions, pyramid, noise, parameters);
   timer.finish("field");
   LabelledPoints image(propagateBeliefs(field, points, parameters.passes), points.width);
   report.iterations += parameters.passes;

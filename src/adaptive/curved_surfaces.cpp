@@ -48,9 +48,10 @@ public:
         look(run.label, run.end - 1, run.end - 1 + REACH);
       if (row_end + (REACH - 1) * width >= labels_.size())
         continue;
-      for (std::size_t i = run.begin; i < run.end; ++i)
-        if (labels_[i + width] != run.label)
-          look(run.label, i, i + REACH * width);
+      const std::uint16_t* below = labels_.data() + width;
+      for (std::size_t i = run.begin;
+           (i = findOther(run.label, below, i, run.end)) < run.end; ++i)
+        look(run.label, i, i + REACH * width);
     }
   }
 

@@ -194,34 +194,75 @@ std::vector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise)
   return ratios;
 }
 
+/// A rectangle of tiles, half open.
+struct TileWindow {
+  int left, right, top, bottom;
+};
+
+/// How many tiles of any window are so: from sums over all that lie above and to the left.
+class TileCounts {
+public:
+  template <typename Predicate>
+  TileCounts(const TileLevel& level, const Predicate& is_so)
+  : stride_(static_cast<std::size_t>(level.columns) + 1)
+  , sums_(stride_ * (static_cast<std::size_t>(level.rows) + 1), 0)
+  {
+    for (int r = 0; r < level.rows; ++r) {
+      int row = 0;
+      for (int c = 0; c < level.columns; ++c) {
+        row += is_so(level.at(c, r)) ? 1 : 0;
+        sums_[at(c + 1, r + 1)] = sums_[at(c + 1, r)] + row;
+      }
+    }
+  }
+
+  int in(const TileWindow& window) const
+  {
+    return sums_[at(window.right, window.bottom)] -
+           sums_[at(window.left, window.bottom)] - sums_[at(window.right, window.top)] +
+           sums_[at(window.left, window.top)];
+  }
+
+private:
+  std::size_t at(int column, int row) const
+  {
+    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
+  }
+
+  std::size_t stride_;
+  std::vector<int> sums_;
+};
+
 /// Noise around each square of 2x2 tiles of a level over that of the whole cloud: a low
 /// percentile of the tiles near, so that edges do not count.
 std::vector<double> localFactors(const TileLevel& level, const TileLevel& squares,
                                  const NoiseLaw& noise,
                                  const AdaptiveParameters& parameters)
 {
-  constexpr std::size_t FEWEST = 4; // tiles for a percentile
+  constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
   const std::vector<double> ratios = noiseRatios(level, noise);
+  const TileCounts with_plane(level, [&](std::size_t i) { return ratios[i] > 0; });
+  const TileCounts quiet(
+      level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
   std::vector<double> factors(squares.at(0, squares.rows), 1.0);
   std::vector<double> around;
   for (int r = 0; r < squares.rows; ++r)
     for (int c = 0; c < squares.columns; ++c) {
+      const TileWindow window = {std::max(0, 2 * c - reach),
+                                 std::min(level.columns, 2 * c + 2 + reach),
+                                 std::max(0, 2 * r - reach),
+                                 std::min(level.rows, 2 * r + 2 + reach)};
+      const int tiles = with_plane.in(window);
+      if (tiles < FEWEST || quiet.in(window) > parameters.local_percentile * tiles)
+        continue;
       around.clear();
-      std::size_t quiet = 0;
-      const int bottom = std::min(level.rows - 1, 2 * r + 1 + reach);
-      const int right = std::min(level.columns - 1, 2 * c + 1 + reach);
-      for (int j = std::max(0, 2 * r - reach); j <= bottom; ++j)
-        for (int i = std::max(0, 2 * c - reach); i <= right; ++i)
-          if (const double ratio = ratios[level.at(i, j)]; ratio > 0) {
+      for (int j = window.top; j < window.bottom; ++j)
+        for (int i = window.left; i < window.right; ++i)
+          if (const double ratio = ratios[level.at(i, j)]; ratio > 0)
             around.push_back(ratio);
-            quiet += ratio <= 1 ? 1U : 0U;
-          }
-      const double below =
-          parameters.local_percentile * static_cast<double>(around.size());
-      if (around.size() >= FEWEST && static_cast<double>(quiet) <= below)
-        factors[squares.at(c, r)] = std::clamp(
-            percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
+      factors[squares.at(c, r)] = std::clamp(
+          percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
     }
   return factors;
 }
