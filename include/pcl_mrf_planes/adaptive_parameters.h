@@ -10,6 +10,10 @@ namespace pcl_mrf_planes {
  * from its own.
  */
 struct AdaptiveParameters {
+  /// Every so many-th point of every so many-th row is segmented, the others take labels
+  /// from around them; 1 (all) to 8. min_points and min_evidence count sampled points.
+  int sampling = 1;
+
   /// \name Tiles of several sizes
   ///@{
   int levels = 4;              ///< tile sides 4, 8, 16, ... points; 2 to 8

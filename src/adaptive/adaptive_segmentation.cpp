@@ -7,6 +7,7 @@
 #include "adaptive/noise_estimation.h"
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_refinement.h"
+#include "adaptive/sampled_points.h"
 #include "adaptive/tile_pyramid.h"
 #include "region_gathering.h"
 #include "stage_timer.h"
@@ -55,15 +56,17 @@ LabelRuns planeRuns(const LabelRuns& image)
   return out;
 }
 
-} // namespace
+/// What the stages find in points, all of them or samples.
+struct Labelling {
+  NoiseLaw noise;
+  FittedRegions fitted;
+  LabelledPoints image;
+};
 
-PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
-                                    const Parameters& all_parameters)
+Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_parameters,
+                      SegmentationReport& report, StageTimer& timer)
 {
   AdaptiveParameters parameters = all_parameters.adaptive;
-  PlaneSegmentation result;
-  SegmentationReport& report = result.report;
-  StageTimer timer(report.stage_ms);
 
   // A. Planar surface detection, with tiles as large as the surfaces allow
   std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters);
@@ -103,13 +106,43 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
       refineRegions(points, pyramid[0], noise, parameters, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image);
   timer.finish("refinement");
+  return {noise, std::move(fitted), std::move(image)};
+}
 
-  const std::vector<Plane> planes(fitted.planes.begin(), fitted.planes.end());
-  const LabelRuns runs = planeRuns(image.runs);
+/// The same of every so many-th point, and the labels of the others from theirs.
+Labelling labelSampled(const OrganizedPoints& points, const Parameters& parameters,
+                       SegmentationReport& report, StageTimer& timer)
+{
+  const int every = parameters.adaptive.sampling;
+  const OrganizedPoints samples = samplePoints(points, every);
+  timer.finish("sampling");
+  Labelling found = labelPlanes(samples, parameters, report, timer);
+  found.image = LabelledPoints(spreadLabels(points, samples, found.image.labels, every,
+                                            found.fitted.planes, found.noise,
+                                            parameters.adaptive),
+                               points.width);
+  timer.finish("sampling");
+  return found;
+}
+
+} // namespace
+
+PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
+                                    const Parameters& parameters)
+{
+  PlaneSegmentation result;
+  SegmentationReport& report = result.report;
+  StageTimer timer(report.stage_ms);
+  Labelling found = parameters.adaptive.sampling > 1
+                        ? labelSampled(points, parameters, report, timer)
+                        : labelPlanes(points, parameters, report, timer);
+  const std::vector<Plane> planes(found.fitted.planes.begin(),
+                                  found.fitted.planes.end());
+  const LabelRuns runs = planeRuns(found.image.runs);
   result.regions = gatherRegions(points, planes, runs,
-                                 {fitted.sums.begin(), fitted.sums.end()},
-                                 all_parameters.min_inliers, all_parameters.min_area);
-  result.labels = std::move(image.labels);
+                                 {found.fitted.sums.begin(), found.fitted.sums.end()},
+                                 parameters.min_inliers, parameters.min_area);
+  result.labels = std::move(found.image.labels);
   paintRegions(runs, result.regions, planes.size(), result.labels);
   timer.finish("regions");
   report.count(points, result.regions);
