@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -42,6 +43,7 @@ public:
   , labels_(labels)
   , every_(every)
   , none_(static_cast<float>(parameters.none_cost))
+  , wide_(static_cast<std::size_t>(samples.width * every))
   {
     for (const FittedPlane& plane : planes)
       planes_.push_back(nearPlane(plane, noise, parameters));
@@ -52,14 +54,14 @@ public:
     const std::uint16_t* above = rowOf(row);
     const std::uint16_t* below = rowOf(std::min(row + 1, samples_.height - 1));
     const int bottom = std::min(points_.height, (row + 1) * every_);
+    widen(above);
     for (int v = row * every_; v < bottom; ++v)
-      copyRow(above, v);
+      copyRow(v);
     const int last = samples_.width - 1;
-    for (int c = 0; c <= last; ++c) {
+    for (int c = 0; (c = findMixed(above, below, c, last)) <= last; ++c) {
       const int next = std::min(c + 1, last);
-      const Around around = {above[c], above[next], below[c], below[next]};
-      if (around[0] != around[1] || around[0] != around[2] || around[0] != around[3])
-        decide(around, c * every_, row * every_, bottom);
+      decide({above[c], above[next], below[c], below[next]}, c * every_, row * every_,
+             bottom);
     }
   }
 
@@ -80,18 +82,52 @@ private:
            static_cast<std::size_t>(u);
   }
 
-  /// The label of the sample to the left and above for all valid points of a row.
-  void copyRow(const std::uint16_t* from, int v)
+  /// The labels of a row of samples, each as often as it stands for points.
+  void widen(const std::uint16_t* samples)
   {
+    std::uint16_t* to = wide_.data();
+    if (every_ == 2) { // the usual case
+      for (int c = 0; c < samples_.width; ++c)
+        to[2 * c] = to[2 * c + 1] = samples[c];
+      return;
+    }
+    for (int c = 0; c < samples_.width; ++c, to += every_)
+      std::fill_n(to, every_, samples[c]);
+  }
+
+  /// The label of the sample to the left and above for all valid points of a row.
+  void copyRow(int v)
+  {
+    const std::uint16_t* from = wide_.data();
     std::uint16_t* to = &out[at(0, v)];
     const std::uint8_t* valid = &points_.valid[at(0, v)];
-    const int pairs = every_ == 2 ? points_.width / 2 : 0;
-    for (int c = 0; c < pairs; ++c) { // the usual case, a division less
-      to[2 * c] = static_cast<std::uint16_t>(from[c] * valid[2 * c]);
-      to[2 * c + 1] = static_cast<std::uint16_t>(from[c] * valid[2 * c + 1]);
+    for (int u = 0; u < points_.width; ++u)
+      to[u] = static_cast<std::uint16_t>(from[u] * valid[u]);
+  }
+
+  /// The first square from column c on whose corners carry different labels, or one past
+  /// the last. Four squares are looked at at once.
+  static int findMixed(const std::uint16_t* above, const std::uint16_t* below, int c,
+                       int last)
+  {
+    constexpr int AT_ONCE = 4;
+    const auto four = [](const std::uint16_t* labels) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, labels, sizeof(word));
+      return word;
+    };
+    for (; c + AT_ONCE <= last; c += AT_ONCE) {
+      const std::uint64_t own = four(above + c);
+      if (((own ^ four(above + c + 1)) | (own ^ four(below + c)) |
+           (own ^ four(below + c + 1))) != 0)
+        break;
     }
-    for (int u = 2 * pairs; u < points_.width; ++u)
-      to[u] = static_cast<std::uint16_t>(from[u / every_] * valid[u]);
+    for (; c <= last; ++c) {
+      const int next = std::min(c + 1, last);
+      if (above[c] != above[next] || above[c] != below[c] || above[c] != below[next])
+        break;
+    }
+    return c;
   }
 
   /// The points of a square whose corners carry different labels.
@@ -127,6 +163,7 @@ private:
   const std::vector<std::uint16_t>& labels_;
   int every_;
   float none_;
+  std::vector<std::uint16_t> wide_; ///< labels of the row at hand
   std::vector<NearPlane> planes_;
 };
 
@@ -138,16 +175,23 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every)
   samples.resize((points.width + every - 1) / every, (points.height + every - 1) / every);
   samples.depth_measure = points.depth_measure;
   const auto step = static_cast<std::size_t>(every);
-  std::size_t k = 0;
-  for (std::size_t v = 0; v < static_cast<std::size_t>(points.height); v += step)
-    for (std::size_t u = 0; u < static_cast<std::size_t>(points.width); u += step) {
-      const std::size_t i = v * static_cast<std::size_t>(points.width) + u;
-      samples.x[k] = points.x[i];
-      samples.y[k] = points.y[i];
-      samples.z[k] = points.z[i];
-      samples.valid[k] = points.valid[i];
-      ++k;
+  const auto columns = static_cast<std::size_t>(samples.width);
+  const auto take = [&](const auto& from, auto& to) {
+    for (std::size_t r = 0; r < static_cast<std::size_t>(samples.height); ++r) {
+      const auto* row = &from[r * step * static_cast<std::size_t>(points.width)];
+      auto* out = &to[r * columns];
+      if (step == 2) // the usual case
+        for (std::size_t c = 0; c < columns; ++c)
+          out[c] = row[2 * c];
+      else
+        for (std::size_t c = 0; c < columns; ++c)
+          out[c] = row[step * c];
     }
+  };
+  take(points.x, samples.x);
+  take(points.y, samples.y);
+  take(points.z, samples.z);
+  take(points.valid, samples.valid);
   return samples;
 }
 
