@@ -34,10 +34,10 @@ std::size_t LoadPoints(const float* first, std::size_t stride, std::size_t count
   const hn::FixedTag<float, 4> d;
   using V = hn::Vec<decltype(d)>;
   // The bytes 0 or 1 of four points, by the bits of a mask.
-  constexpr std::uint32_t BYTES[16] = {
-      0x00000000, 0x00000001, 0x00000100, 0x00000101, 0x00010000, 0x00010001,
-      0x00010100, 0x00010101, 0x01000000, 0x01000001, 0x01000100, 0x01000101,
-      0x01010000, 0x01010001, 0x01010100, 0x01010101};
+  constexpr std::uint32_t BYTES[16] = {0x00000000, 0x00000001, 0x00000100, 0x00000101,
+                                       0x00010000, 0x00010001, 0x00010100, 0x00010101,
+                                       0x01000000, 0x01000001, 0x01000100, 0x01000101,
+                                       0x01010000, 0x01010001, 0x01010100, 0x01010101};
   const V farthest = hn::Set(d, OrganizedPoints::FARTHEST);
   std::size_t i = 0;
   for (; i + 4 < count; i += 4) {
@@ -53,9 +53,9 @@ std::size_t LoadPoints(const float* first, std::size_t stride, std::size_t count
     const V z = hn::ConcatLowerLower(d, hn::InterleaveUpper(d, p2, p3),
                                      hn::InterleaveUpper(d, p0, p1));
     // Written so that NaN and infinity fail.
-    const auto good = hn::And(
-        hn::And(hn::Le(hn::Abs(x), farthest), hn::Le(hn::Abs(y), farthest)),
-        hn::Le(hn::Abs(z), farthest));
+    const auto good =
+        hn::And(hn::And(hn::Le(hn::Abs(x), farthest), hn::Le(hn::Abs(y), farthest)),
+                hn::Le(hn::Abs(z), farthest));
     hn::StoreU(hn::IfThenElseZero(good, x), d, out.x + i);
     hn::StoreU(hn::IfThenElseZero(good, y), d, out.y + i);
     hn::StoreU(hn::IfThenElseZero(good, z), d, out.z + i);

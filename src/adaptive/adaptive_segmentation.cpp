@@ -99,11 +99,11 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   timer.finish("cells");
   const CandidateField field = buildField(points, regions, pyramid, noise, parameters);
   timer.finish("field");
-  LabelledPoints image(propagateBeliefs(field, points, parameters.passes), points.width);
+  LabelledPoints image(propagateBeliefs(field, points, parameters.passes),
+                       points.width);
   report.iterations += parameters.passes;
   timer.finish("propagation");
-  FittedRegions fitted =
-      refineRegions(points, pyramid[0], noise, parameters, image);
+  FittedRegions fitted = refineRegions(points, pyramid[0], noise, parameters, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image);
   timer.finish("refinement");
   return {noise, std::move(fitted), std::move(image)};

@@ -73,7 +73,7 @@ private:
   const TileRegions& regions_;
   const TileLevel& cells_;
   int reach_;
-  int column_ = 0, row_ = 0;                         ///< first cell of the block
+  int column_ = 0, row_ = 0;                        ///< first cell of the block
   int left_ = 0, right_ = 0, top_ = 0, bottom_ = 0; ///< cells around it, half open
   std::vector<std::pair<int, int>> found_;
 };

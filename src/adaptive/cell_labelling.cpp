@@ -87,7 +87,8 @@ private:
   {
     int different = 0;
     for (const int other : beside)
-      different += static_cast<int>(other != label) & static_cast<int>(other != OUTSIDE);
+      different +=
+          static_cast<int>(other != label) & static_cast<int>(other != OUTSIDE);
     return change_ * different;
   }
 

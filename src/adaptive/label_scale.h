@@ -13,7 +13,7 @@ struct LabelScale {
 };
 
 inline LabelScale labelScale(const FittedPlane& plane, const NoiseLaw& noise,
-                      const AdaptiveParameters& parameters)
+                             const AdaptiveParameters& parameters)
 {
   const double growth = noise.growthOf(plane.n);
   const double bend =

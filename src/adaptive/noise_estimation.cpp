@@ -249,10 +249,9 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
   std::vector<double> around;
   for (int r = 0; r < squares.rows; ++r)
     for (int c = 0; c < squares.columns; ++c) {
-      const TileWindow window = {std::max(0, 2 * c - reach),
-                                 std::min(level.columns, 2 * c + 2 + reach),
-                                 std::max(0, 2 * r - reach),
-                                 std::min(level.rows, 2 * r + 2 + reach)};
+      const TileWindow window = {
+          std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
+          std::max(0, 2 * r - reach), std::min(level.rows, 2 * r + 2 + reach)};
       const int tiles = with_plane.in(window);
       if (tiles < FEWEST || quiet.in(window) > parameters.local_percentile * tiles)
         continue;

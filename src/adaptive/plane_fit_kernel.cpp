@@ -87,9 +87,9 @@ HWY_INLINE V LeastEigenvalue(D d, V trace, V minors, V determinant)
     const V slope = hn::Add(
         hn::Mul(hn::Sub(hn::Mul(hn::Set(d, 3.0), root), hn::Add(trace, trace)), root),
         minors);
-    const V value = hn::Sub(
-        hn::Mul(hn::Add(hn::Mul(hn::Sub(root, trace), root), minors), root),
-        determinant);
+    const V value =
+        hn::Sub(hn::Mul(hn::Add(hn::Mul(hn::Sub(root, trace), root), minors), root),
+                determinant);
     rising = hn::And(rising, hn::Gt(slope, hn::Zero(d)));
     const V step = hn::Div(hn::Neg(value), slope);
     root = hn::IfThenElse(rising, hn::Add(root, step), root);
@@ -118,7 +118,7 @@ HWY_INLINE Vectors<V> Normals(D d, const Covariances<V>& c, V root)
   const V norm = hn::Sqrt(length);
   const auto found = hn::Gt(length, hn::Zero(d));
   const Vectors<V> unit = {hn::Div(best.x, norm), hn::Div(best.y, norm),
-                        hn::Div(best.z, norm)};
+                           hn::Div(best.z, norm)};
   return Select<V>(found, unit, {hn::Zero(d), hn::Zero(d), hn::Set(d, 1.0)});
 }
 
@@ -139,13 +139,13 @@ HWY_INLINE void FitTable(D d, const Table<D, NUMBERS>& in, Table<D, RESULTS>& ou
 {
   const V per = hn::Div(hn::Set(d, 1.0), in.Load(d, 0));
   const Vectors<V> mean = {hn::Mul(in.Load(d, 1), per), hn::Mul(in.Load(d, 2), per),
-                        hn::Mul(in.Load(d, 3), per)};
+                           hn::Mul(in.Load(d, 3), per)};
   const auto central = [&](std::size_t k, V a, V b) {
     return hn::Sub(hn::Mul(in.Load(d, k), per), hn::Mul(a, b));
   };
   const Covariances<V> c = {central(4, mean.x, mean.x), central(5, mean.x, mean.y),
-                         central(6, mean.x, mean.z), central(7, mean.y, mean.y),
-                         central(8, mean.y, mean.z), central(9, mean.z, mean.z)};
+                            central(6, mean.x, mean.z), central(7, mean.y, mean.y),
+                            central(8, mean.y, mean.z), central(9, mean.z, mean.z)};
   const V zero = hn::Zero(d);
   const V trace = c.Trace();
   const V minors = c.Minors();
@@ -174,8 +174,8 @@ HWY_INLINE void FitTable(D d, const Table<D, NUMBERS>& in, Table<D, RESULTS>& ou
 template <class D>
 HWY_INLINE void FillLane(const TileSums& s, std::size_t lane, Table<D, NUMBERS>& table)
 {
-  const std::array<double, NUMBERS> numbers = {
-      s.n, s.x, s.y, s.z, s.xx, s.xy, s.xz, s.yy, s.yz, s.zz, s.noise};
+  const std::array<double, NUMBERS> numbers = {s.n,  s.x,  s.y,  s.z,  s.xx,   s.xy,
+                                               s.xz, s.yy, s.yz, s.zz, s.noise};
   for (std::size_t k = 0; k < NUMBERS; ++k)
     table.at[k][lane] = numbers[k];
 }

@@ -287,8 +287,8 @@ private:
   const AdaptiveParameters& parameters_;
   double limit_;
   CostQueue queue_;
-  std::vector<Pair> pairs_;   ///< in the order in which they were offered
-  std::size_t looked_at_ = 0; ///< so many of them, the first
+  std::vector<Pair> pairs_;             ///< in the order in which they were offered
+  std::size_t looked_at_ = 0;           ///< so many of them, the first
   std::array<TileSums, AT_ONCE> joint_; ///< of the others
   std::array<FittedPlane, AT_ONCE> planes_;
 };

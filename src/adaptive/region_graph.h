@@ -33,7 +33,8 @@ public:
 
   void touch(int a, int b)
   {
-    if (const List& list = at(lists_, a); list.last >= 0 && at(links_, list.last).to == b)
+    if (const List& list = at(lists_, a);
+        list.last >= 0 && at(links_, list.last).to == b)
       return; // along a border of several cells
     append(a, b);
     append(b, a);

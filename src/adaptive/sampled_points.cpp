@@ -154,8 +154,9 @@ private:
 
   float cost(std::uint16_t label, std::size_t i) const
   {
-    return label == 0 ? none_
-                      : planes_[label - 1U].cost(points_.x[i], points_.y[i], points_.z[i]);
+    return label == 0
+               ? none_
+               : planes_[label - 1U].cost(points_.x[i], points_.y[i], points_.z[i]);
   }
 
   const OrganizedPoints& points_;
@@ -172,7 +173,8 @@ private:
 OrganizedPoints samplePoints(const OrganizedPoints& points, int every)
 {
   OrganizedPoints samples;
-  samples.resize((points.width + every - 1) / every, (points.height + every - 1) / every);
+  samples.resize((points.width + every - 1) / every,
+                 (points.height + every - 1) / every);
   samples.depth_measure = points.depth_measure;
   const auto step = static_cast<std::size_t>(every);
   const auto columns = static_cast<std::size_t>(samples.width);
@@ -195,13 +197,11 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every)
   return samples;
 }
 
-std::vector<std::uint16_t> spreadLabels(const OrganizedPoints& points,
-                                        const OrganizedPoints& samples,
-                                        const std::vector<std::uint16_t>& labels,
-                                        int every,
-                                        const std::vector<FittedPlane>& planes,
-                                        const NoiseLaw& noise,
-                                        const AdaptiveParameters& parameters)
+std::vector<std::uint16_t>
+spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
+             const std::vector<std::uint16_t>& labels, int every,
+             const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+             const AdaptiveParameters& parameters)
 {
   LabelSpreading spreading(points, samples, labels, every, planes, noise, parameters);
   for (int row = 0; row < samples.height; ++row)

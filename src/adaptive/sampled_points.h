@@ -17,12 +17,10 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every);
  * Points between samples of one label take it. Elsewhere a point takes, of the labels
  * around it, the plane that it is nearest to in sigmas, or none where that is one of
  * them and costs less. O(points) */
-std::vector<std::uint16_t> spreadLabels(const OrganizedPoints& points,
-                                        const OrganizedPoints& samples,
-                                        const std::vector<std::uint16_t>& labels,
-                                        int every,
-                                        const std::vector<FittedPlane>& planes,
-                                        const NoiseLaw& noise,
-                                        const AdaptiveParameters& parameters);
+std::vector<std::uint16_t>
+spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
+             const std::vector<std::uint16_t>& labels, int every,
+             const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+             const AdaptiveParameters& parameters);
 
 } // namespace pcl_mrf_planes::adaptive

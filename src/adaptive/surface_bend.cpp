@@ -106,8 +106,9 @@ std::vector<Bend> measureBends(const OrganizedPoints& points,
       if (labels[i] == 0)
         continue;
       const std::size_t k = labels[i] - 1U;
-      const std::size_t left_out =
-          planes[k].n < MANY ? 0 : planes[k].n < VERY_MANY ? 2 : 6; // bits of u and v
+      const std::size_t left_out = planes[k].n < MANY        ? 0
+                                   : planes[k].n < VERY_MANY ? 2
+                                                             : 6; // bits of u and v
       if (((u | v) & left_out) == 0)
         sums[k].add(points.x[i], points.y[i], points.z[i]);
     }
