@@ -42,6 +42,7 @@ TEST_F(Schema, HoldsForEveryProfileAndReader)
        {std::vector<std::string>{},
         {"--timing", "--repeat", "2"},
         {"--profile", "paper", "--energy"},
+        {"--profile", "fast"},
         {"--max-growth", "1", "--min-points", "1000000"}}) {
     std::vector<std::string> arguments = {path("in/1.pcd"), "--models", path("m.json")};
     arguments.insert(arguments.end(), options.begin(), options.end());
