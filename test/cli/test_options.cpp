@@ -43,7 +43,8 @@ const Values PAPER = {{"tile-width", 16},
                       {"convergence-tolerance", 1e-05}};
 
 /// Of profile default.
-const Values ADAPTIVE = {{"levels", 3},
+const Values ADAPTIVE = {{"sampling", 2},
+                         {"levels", 3},
                          {"smallest-level", 1},
                          {"tile-tolerance", 2.25},
                          {"min-fill", 0.625},
