@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** \file Command line: segments clouds and depth images into planes. */
 #include "batch.h"
+#include "command_line.h"
 #include "frame_outputs.h"
 #include "interruption.h"
 #include "options.h"
@@ -42,7 +43,13 @@ io::FrameSource singleFrame(const Options& options)
     throw std::runtime_error("'" + options.inputs[0] + "' has " +
                              std::to_string(list.frames.size()) +
                              " frames; give --output-folder FOLDER to segment them");
-  return std::move(list.frames.front());
+  io::FrameSource source = std::move(list.frames.front());
+  const bool is_pcd = source.reader == "pcd" || source.reader == "synpeb";
+  if (!is_pcd && sameFile(options.output, options.inputs[0]))
+    throw std::runtime_error("'" + options.output +
+                             "' is the input, which is no PCD; name another file for "
+                             "the labelled cloud");
+  return source;
 }
 
 int runSingle(const Options& options)

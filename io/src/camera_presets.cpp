@@ -55,8 +55,8 @@ const std::vector<Preset>& presets()
       // Depth camera of a Kinect v2 as its SDK reports it (ICoordinateMapper,
       // GetDepthCameraIntrinsics); devices differ by a few points.
       {"kinect2", pinhole(365.456, 365.456, 254.878, 205.395, 512, 424, 1000)},
-      // RealSense D435 as a device reports itself at 1280x720 (rs-enumerate-devices -c:
-      // 637.6, principal point within 10 points of the middle); devices differ by 1 %.
+      // RealSense D435 at 1280x720 as one device reports it (rs-enumerate-devices -c:
+      // 637.6, principal point within 11 points of the middle; a D401 says 639.0).
       {"realsense", pinhole(637.6, 637.6, 639.5, 359.5, 1280, 720, 1000)},
       // The same at 640x480, which is no scaled 1280x720: 382.6.
       {"realsense-vga", pinhole(382.6, 382.6, 319.5, 239.5, 640, 480, 1000)},

@@ -11,12 +11,31 @@ namespace pcl_mrf_planes::io {
 
 namespace {
 
-/// HDF5 as Debian builds it is not made for threads.
-std::mutex& hdf5Lock()
-{
-  static std::mutex lock;
-  return lock;
-}
+/// HDF5 for one thread, as Debian builds it, and without its words on standard error,
+/// which are no message for users.
+class UseHdf5 {
+public:
+  UseHdf5()
+  : guard_(lock())
+  {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  UseHdf5(const UseHdf5&) = delete;
+  UseHdf5& operator=(const UseHdf5&) = delete;
+  ~UseHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+
+private:
+  static std::mutex& lock()
+  {
+    static std::mutex all;
+    return all;
+  }
+
+  std::lock_guard<std::mutex> guard_;
+  H5E_auto2_t print_ = nullptr;
+  void* print_data_ = nullptr;
+};
 
 /// A handle of HDF5, closed at the end.
 class Handle {
@@ -48,7 +67,6 @@ private:
 
 hid_t openFile(const std::string& path)
 {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // its words are no message for users
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0)
     failDamaged();
@@ -158,7 +176,7 @@ std::vector<Colour> readColours(hid_t file, std::size_t index, ImageSize size)
 
 std::size_t countNyuFrames(const std::string& path)
 {
-  const std::lock_guard<std::mutex> guard(hdf5Lock());
+  const UseHdf5 only_user;
   const Handle file(openFile(path), H5Fclose);
   const Array depth(file.id(), depthName(file.id(), false));
   checkDepth(depth);
@@ -168,7 +186,7 @@ std::size_t countNyuFrames(const std::string& path)
 Frame readNyuFrame(const std::string& path, std::size_t index,
                    const ReadOptions& options)
 {
-  const std::lock_guard<std::mutex> guard(hdf5Lock());
+  const UseHdf5 only_user;
   const Handle file(openFile(path), H5Fclose);
   const Array array(file.id(), depthName(file.id(), options.filled_depth));
   checkDepth(array);

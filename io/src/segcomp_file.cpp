@@ -87,6 +87,7 @@ CameraModel abwCamera(const std::string& path, double& scale, double& offset)
 
 /// Point of the laser scanner, centimetres: x left, y up, z forward. Two mirrors turn
 /// the beam by alpha (left) and beta (up); dx, dy, dz is where it leaves the second.
+/// The unit is that of the mirrors' distances; 4096 range values are 8.3 m.
 Eigen::Vector3d perceptronPoint(int row, int column, double range)
 {
   constexpr double H1 = 3.0, H2 = 5.5; // distances between beam and mirrors

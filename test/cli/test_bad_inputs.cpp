@@ -53,6 +53,17 @@ TEST_F(BadInputs, DepthImagesThatCannotBe)
   expectBad("cut.png", {"truncated"}, {"--camera", "150,150,80,60"});
 }
 
+TEST_F(BadInputs, ADepthImageIsNotOverwrittenByACloud)
+{
+  writeDepth("depth.png");
+  const std::string before = read("depth.png");
+  const Outcome outcome =
+      segment({path("depth.png"), path("depth.png"), "--camera", "150,150,80,60"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("name another file"));
+  EXPECT_EQ(read("depth.png"), before);
+}
+
 TEST_F(BadInputs, EightBitsWhereSixteenAreDue)
 {
   std::vector<unsigned char> values(64 * 48, 100);
