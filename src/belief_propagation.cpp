@@ -20,7 +20,8 @@ SiteRow siteRow(const GridField& field, const std::vector<std::uint16_t> receive
                 int colour, int y)
 {
   const CheckerboardLayout& layout = field.layout();
-  SiteRow row = makeSiteRow(layout, field.prices(), colour, y);
+  SiteRow row =
+      makeSiteRow(layout, field.prices(), field.prices().leastPairwise(), colour, y);
   row.data = field.dataRow(colour, y, 0);
   for (int d = 0; d < DIRECTIONS; ++d)
     row.received[d] = received[d][colour].data() + layout.rowStart(y, row.labels);
@@ -45,7 +46,6 @@ std::uint16_t BeliefPropagation::sendMessages(int colour)
   const auto received = [&](int direction, int y) {
     return received_[direction][other].data() + layout.rowStart(y, field_.labels());
   };
-  const PriceOrder order(field_.prices());
   std::vector<std::uint16_t> change(static_cast<std::size_t>(layout.height), 0);
   parallelRows(layout.height, threads_, [&](int y) {
     SendRow rows;
@@ -63,9 +63,8 @@ std::uint16_t BeliefPropagation::sendMessages(int colour)
     }
     alignToSenders(rows, colour, y);
     KernelScratch scratch(field_.labels(), layout.stride);
-    SiteRow row = siteRow(field_, received_, colour, y);
-    row.order = &order;
-    change[static_cast<std::size_t>(y)] = sendRow(row, rows, scratch);
+    change[static_cast<std::size_t>(y)] =
+        sendRow(siteRow(field_, received_, colour, y), rows, scratch);
   });
   return change.empty() ? std::uint16_t{0}
                         : *std::max_element(change.begin(), change.end());

@@ -5,6 +5,7 @@
 #include "belief_propagation_kernel.h"
 
 #include <memory>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "belief_propagation_kernel.cpp"
@@ -31,72 +32,56 @@ HWY_INLINE Vec belief(const SiteRow& row, std::ptrdiff_t offset)
   return sum;
 }
 
-/// Stores messages, and remembers how far they moved where that is asked for.
-template <bool MEASURE>
-struct MessageStore {
-  Vec change; ///< the largest so far
-
-  HWY_INLINE void operator()(Vec message, std::uint16_t* target)
-  {
-    const Tag d;
-    if (MEASURE) {
-      const Vec old = hn::LoadU(d, target);
-      change = hn::Max(change, hn::Sub(hn::Max(message, old), hn::Min(message, old)));
-    }
-    hn::StoreU(message, d, target);
-  }
-};
+/// Stores a message and remembers how far it moved.
+HWY_INLINE void store(Vec message, std::uint16_t* target, Vec& change)
+{
+  const Tag d;
+  const Vec old = hn::LoadU(d, target);
+  change = hn::Max(change, hn::Sub(hn::Max(message, old), hn::Min(message, old)));
+  hn::StoreU(message, d, target);
+}
 
 /// Messages max(0, pairwise - weight): exact, with predecessors that cannot win
 /// skipped.
 ///
 /// m(b) = min over a of h(a) + price(a, b), and price(b, b) = 0. A label a != b can
-/// beat h(b) only if h(a) + price(a, b) < h(b), hence only if h(a) + price(a, b) < max h:
-/// of the labels in the order of their prices from a, those up to max h - h(a). As
-/// min h = 0, the least value of the message is 0 as well: it comes out normalised. Where
-/// there is no edge the message is 0 for all labels.
-template <bool MEASURE>
+/// beat h(b) only if h(a) + least price < h(b), hence only if h(a) + least price < max
+/// h. As min h = 0, the least value of the message is 0 as well: it comes out
+/// normalised.
 HWY_INLINE void sendSoftThreshold(const SiteRow& row, const std::uint16_t* h, Vec most,
-                                  Vec weight, std::uint16_t* message,
-                                  std::uint16_t* target, MessageStore<MEASURE>& store)
+                                  Vec weight, std::vector<int>& active,
+                                  std::uint16_t* target, Vec& change)
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
-  const auto none = hn::Eq(weight, hn::Set(d, PairPrices::NO_EDGE));
-  const Vec reach = hn::IfThenZeroElse(none, most);
-  const Vec least = hn::SaturatedSub(hn::Set(d, row.order->least()), weight);
-  for (int b = 0; b < row.labels; ++b) {
-    const std::size_t at = static_cast<std::size_t>(b) * lanes;
-    hn::Store(hn::Load(d, h + at), d, message + at);
-  }
+  const Vec least = hn::SaturatedSub(hn::Set(d, row.least_pairwise), weight);
+  int count = 0;
   for (int a = 0; a < row.labels; ++a) {
-    const Vec own = hn::Load(d, h + static_cast<std::size_t>(a) * lanes);
-    const auto wins = hn::Lt(hn::Add(own, least), reach);
-    if (hn::AllFalse(d, wins))
-      continue;
-    const Vec slack = hn::SaturatedAdd(hn::SaturatedSub(reach, own), weight);
-    const std::uint16_t limit =
-        hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(wins, slack)));
-    const PriceOrder::Change* change = row.order->from(a);
-    const PriceOrder::Change* end = change + row.order->others();
-    for (; change != end && change->price < limit; ++change) {
-      std::uint16_t* to = message + static_cast<std::size_t>(change->label) * lanes;
-      const Vec price = hn::SaturatedSub(hn::Set(d, change->price), weight);
-      hn::Store(hn::Min(hn::Load(d, to), hn::Add(own, price)), d, to);
-    }
+    const Vec reach =
+        hn::Add(hn::Load(d, h + static_cast<std::size_t>(a) * lanes), least);
+    if (!hn::AllTrue(d, hn::Eq(hn::Max(reach, most), reach))) // some lane: reach < most
+      active[static_cast<std::size_t>(count++)] = a;
   }
-  for (int b = 0; b < row.labels; ++b)
-    store(hn::IfThenZeroElse(
-              none, hn::Load(d, message + static_cast<std::size_t>(b) * lanes)),
-          target + static_cast<std::ptrdiff_t>(b) * row.label_stride);
+  for (int b = 0; b < row.labels; ++b) {
+    const std::uint16_t* prices =
+        row.pairwise + static_cast<std::ptrdiff_t>(b) * row.labels;
+    Vec message = hn::Load(d, h + static_cast<std::size_t>(b) * lanes);
+    for (int i = 0; i < count; ++i) {
+      const int a = active[static_cast<std::size_t>(i)];
+      const Vec price = hn::SaturatedSub(hn::Set(d, prices[a]), weight);
+      message =
+          hn::Min(message,
+                  hn::Add(hn::Load(d, h + static_cast<std::size_t>(a) * lanes), price));
+    }
+    store(message, target + static_cast<std::ptrdiff_t>(b) * row.label_stride, change);
+  }
 }
 
 /// Messages max(pairwise, scale * weight): the diagonal is not free, so every
 /// predecessor counts and the least value has to be subtracted afterwards.
-template <bool MEASURE>
-HWY_INLINE void sendScaledMaximum(const SiteRow& row, const std::uint16_t* h,
-                                  Vec weight, std::uint16_t* message,
-                                  std::uint16_t* target, MessageStore<MEASURE>& store)
+HWY_INLINE void sendScaledMaximum(const SiteRow& row, std::uint16_t* h, Vec weight,
+                                  std::uint16_t* message, std::uint16_t* target,
+                                  Vec& change)
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
@@ -117,20 +102,19 @@ HWY_INLINE void sendScaledMaximum(const SiteRow& row, const std::uint16_t* h,
   for (int b = 0; b < row.labels; ++b) {
     const Vec best = hn::Load(d, message + static_cast<std::size_t>(b) * lanes);
     store(hn::IfThenZeroElse(none, hn::Sub(best, least)),
-          target + static_cast<std::ptrdiff_t>(b) * row.label_stride);
+          target + static_cast<std::ptrdiff_t>(b) * row.label_stride, change);
   }
 }
 
-template <bool MEASURE>
-HWY_INLINE std::uint16_t SendAll(const SiteRow& row, const SendRow& send,
-                                 KernelScratch& scratch)
+std::uint16_t SendMessages(const SiteRow& row, const SendRow& send,
+                           KernelScratch& scratch)
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
   std::uint16_t* const sum = scratch.belief;
   std::uint16_t* const h = scratch.h;
 
-  MessageStore<MEASURE> store = {hn::Zero(d)};
+  Vec change = hn::Zero(d);
   for (std::ptrdiff_t k = 0; k < row.sites; k += static_cast<std::ptrdiff_t>(lanes)) {
     for (int l = 0; l < row.labels; ++l)
       hn::Store(belief(row, l * static_cast<std::ptrdiff_t>(row.label_stride) + k), d,
@@ -159,25 +143,14 @@ HWY_INLINE std::uint16_t SendAll(const SiteRow& row, const SendRow& send,
       }
       const Vec weight = hn::LoadU(d, send.weight[direction] + k);
       if (row.model == EdgeModel::SOFT_THRESHOLD)
-        sendSoftThreshold(row, h, most, weight, scratch.message,
-                          send.target[direction] + k, store);
+        sendSoftThreshold(row, h, most, weight, scratch.active,
+                          send.target[direction] + k, change);
       else
         sendScaledMaximum(row, h, weight, scratch.message, send.target[direction] + k,
-                          store);
+                          change);
     }
   }
-  return hn::GetLane(hn::MaxOfLanes(d, store.change));
-}
-
-std::uint16_t SendMessages(const SiteRow& row, const SendRow& send,
-                           KernelScratch& scratch)
-{
-  return SendAll<true>(row, send, scratch);
-}
-
-void SendUnmeasured(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
-{
-  SendAll<false>(row, send, scratch);
+  return hn::GetLane(hn::MaxOfLanes(d, change));
 }
 
 void MapRow(const SiteRow& row, std::uint16_t* labels)
@@ -206,7 +179,6 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_mrf_planes {
 
 HWY_EXPORT(SendMessages);
-HWY_EXPORT(SendUnmeasured);
 HWY_EXPORT(MapRow);
 
 namespace {
@@ -217,7 +189,8 @@ constexpr std::size_t ALIGNMENT = 64;                       // bytes, of any vec
 } // namespace
 
 KernelScratch::KernelScratch(int labels, int layout_stride)
-: row(static_cast<std::size_t>(layout_stride))
+: active(static_cast<std::size_t>(labels))
+, row(static_cast<std::size_t>(layout_stride))
 , buffer_(3 * static_cast<std::size_t>(labels) * VECTOR + ALIGNMENT)
 {
   void* start = buffer_.data();
@@ -228,7 +201,7 @@ KernelScratch::KernelScratch(int labels, int layout_stride)
 }
 
 SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
-                    int colour, int y)
+                    std::uint16_t least_pairwise, int colour, int y)
 {
   SiteRow row;
   row.sites = layout.sitesInRow(y, colour);
@@ -237,6 +210,7 @@ SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
   row.model = prices.edgeModel();
   row.pairwise = prices.pairwiseMatrix();
   row.scale = prices.scaleMatrix();
+  row.least_pairwise = least_pairwise;
   return row;
 }
 
@@ -253,11 +227,6 @@ void alignToSenders(SendRow& send, int colour, int y)
 std::uint16_t sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
 {
   return HWY_DYNAMIC_DISPATCH(SendMessages)(row, send, scratch);
-}
-
-void sendRowUnmeasured(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
-{
-  HWY_DYNAMIC_DISPATCH(SendUnmeasured)(row, send, scratch);
 }
 
 void mapSites(const SiteRow& row, int width, int colour, int y, KernelScratch& scratch,

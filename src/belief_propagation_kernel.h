@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "price_order.h"
-
 #include <pcl_mrf_planes/field_rows.h>
 
 #include <cstdint>
@@ -26,7 +24,7 @@ struct SiteRow {
   EdgeModel model = EdgeModel::SOFT_THRESHOLD;
   const std::uint16_t* pairwise = nullptr; ///< L x L
   const std::uint16_t* scale = nullptr;    ///< L x L
-  const PriceOrder* order = nullptr;       ///< for messages of SOFT_THRESHOLD
+  std::uint16_t least_pairwise = 0;        ///< least cost of two different labels
   const std::uint16_t* data = nullptr;
   const std::uint16_t* received[DIRECTIONS] = {}; ///< by the sender's direction
 };
@@ -42,19 +40,19 @@ struct SendRow {
 struct KernelScratch {
   explicit KernelScratch(int labels, int layout_stride);
 
-  std::uint16_t* belief;          ///< a vector for each label
-  std::uint16_t* h;               ///< a vector for each label
-  std::uint16_t* message;         ///< a vector for each label
+  std::uint16_t* belief;  ///< a vector for each label
+  std::uint16_t* h;       ///< a vector for each label
+  std::uint16_t* message; ///< a vector for each label
+  std::vector<int> active;
   std::vector<std::uint16_t> row; ///< a row of labels
 
 private:
   std::vector<std::uint16_t> buffer_;
 };
 
-/// The parts of a SiteRow that do not depend on where its messages are kept; without the
-/// order of prices, which only senders need.
+/// The parts of a SiteRow that do not depend on where its messages are kept.
 SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
-                    int colour, int y);
+                    std::uint16_t least_pairwise, int colour, int y);
 
 /// Shifts rows of the other colour so that each element lines up with its sender.
 /// Before, weight[LEFT] holds the right edges of the other colour's sites of the same
@@ -63,9 +61,6 @@ void alignToSenders(SendRow& send, int colour, int y);
 
 /// Sends the messages of one row of sites; returns the largest change of a message.
 std::uint16_t sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch);
-
-/// The same where nobody asks for the change.
-void sendRowUnmeasured(const SiteRow& row, const SendRow& send, KernelScratch& scratch);
 
 /// Writes the label of least belief cost of every site of the row into the label image.
 void mapSites(const SiteRow& row, int width, int colour, int y, KernelScratch& scratch,

@@ -15,10 +15,8 @@ namespace {
 class BandSweep {
 public:
   /// Labels for rows \a first to \a last - 1.
-  BandSweep(const FieldRows& field, const PriceOrder& order, int iterations, int first,
-            int last)
+  BandSweep(const FieldRows& field, int iterations, int first, int last)
   : field_(field)
-  , order_(order)
   , layout_(field.layout())
   , labels_(field.prices().labels())
   , iterations_(iterations)
@@ -27,6 +25,7 @@ public:
   , top_(std::max(0, first - iterations))
   , bottom_(std::min(layout_.height, last + iterations))
   , ring_(std::min(iterations + 2, bottom_ - top_))
+  , least_pairwise_(field.prices().leastPairwise())
   , scratch_(labels_, layout_.stride)
   {
     for (int colour = 0; colour < 2; ++colour) {
@@ -89,8 +88,7 @@ private:
 
   SiteRow siteRow(int colour, int y)
   {
-    SiteRow row = makeSiteRow(layout_, field_.prices(), colour, y);
-    row.order = &order_;
+    SiteRow row = makeSiteRow(layout_, field_.prices(), least_pairwise_, colour, y);
     row.data = fieldRow(y).data[colour];
     for (int d = 0; d < DIRECTIONS; ++d)
       row.received[d] = received(d, colour, y);
@@ -115,7 +113,7 @@ private:
       rows.weight[BELOW] = here.down[colour];
     }
     alignToSenders(rows, colour, y);
-    sendRowUnmeasured(siteRow(colour, y), rows, scratch_);
+    sendRow(siteRow(colour, y), rows, scratch_);
   }
 
   void label(int y, std::vector<std::uint16_t>& out)
@@ -125,13 +123,13 @@ private:
   }
 
   const FieldRows& field_;
-  const PriceOrder& order_;
   const CheckerboardLayout& layout_;
   int labels_;
   int iterations_;
   int first_, last_; // rows to label
   int top_, bottom_; // rows to work on
   int ring_;         // rows in memory
+  std::uint16_t least_pairwise_;
   KernelScratch scratch_;
   std::vector<std::uint16_t> data_[2];
   std::vector<std::uint16_t> right_[2];
@@ -151,12 +149,11 @@ std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
   // No more bands than leave each one at least as much of its own as it repeats.
   const int most = std::max(1, height / std::max(1, 2 * iterations));
   const int bands = std::min(threadCount(threads), most);
-  const PriceOrder order(field.prices());
   parallelRows(bands, threads, [&](int band) {
     const auto start = [&](int b) {
       return static_cast<int>(static_cast<long long>(height) * b / bands);
     };
-    BandSweep(field, order, iterations, start(band), start(band + 1)).run(labels);
+    BandSweep(field, iterations, start(band), start(band + 1)).run(labels);
   });
   return labels;
 }
