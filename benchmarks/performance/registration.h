@@ -5,7 +5,8 @@ namespace pcl_mrf_planes::benchmarks {
 
 // Names are paths: the group, what is measured, then name:value for each variable.
 
-/** \brief pipeline/PROFILE/SHAPE/threads:N, the class for PCL on a generated room. */
+/** \brief pipeline/PROFILE/SHAPE/threads:N, the class for PCL on a generated room. Its
+ * profile PAPER_10_LABELS is PAPER with so many labels at every size. */
 void registerPipelines();
 
 /** \brief floor/PASS/SHAPE: passes that no method can do without. */
