@@ -13,6 +13,11 @@ FLOORS = {'read': 'sum of all coordinates of the cloud',
           'sums': 'the ten sums of all 4x4 cells'}
 
 
+def slope_title(name, variable, pairs):
+    """FAST: points^0.9"""
+    return f'{name}: {variable}^{exponent(pairs):.2f}' if len(pairs) > 1 else name
+
+
 # --- block: points --------------------------------------------------------------------
 
 
@@ -37,7 +42,7 @@ def plot_points(times, pictures):
         if not pairs:
             continue
         axes.plot(*zip(*pairs), '.-', color=colour,
-                  label=f'{title_of(profile)}: points^{exponent_cell(times, profile)}')
+                  label=slope_title(title_of(profile), 'points', pairs))
         for shape in shapes_of(times, 'pipeline'):
             name = f'pipeline/{profile}/{shape}/threads:1'
             if shape.startswith('lidar') and times.has(name):
@@ -112,8 +117,8 @@ def plot_labels(found, iterations, pictures):
     figure, axes = plt.subplots(figsize=(8, 4), layout='constrained')
     for count, colour in zip(iterations, COLOURS):
         pairs = sorted((labels, ms) for (labels, t), ms in found.items() if t == count)
-        slope = f': labels^{exponent(pairs):.2f}' if len(pairs) > 1 else ''
-        axes.plot(*zip(*pairs), '.-', color=colour, label=iterations_title(count) + slope)
+        axes.plot(*zip(*pairs), '.-', color=colour,
+                  label=slope_title(iterations_title(count), 'labels', pairs))
     axes.set(xscale='log', yscale='log', xlabel='labels',
              ylabel='milliseconds at 640x480, one thread')
     ticks = sorted({labels for labels, _ in found})
