@@ -46,11 +46,12 @@ def plot_stages(medians, stages, pictures):
     save_plot(figure, 'performance_stages.png', pictures)
 
 
-def bounds_sentence(profile, stages):
+def longest_sentence(profile, stages):
     total = sum(stages.values())
     first, second = sorted(stages, key=stages.get, reverse=True)[:2]
-    return (f'{profile} is bounded by {first} ({100 * stages[first] / total:.0f} %), then '
-            f'{second} ({100 * stages[second] / total:.0f} %).')
+    return (f'The longest stage of {profile} is {first} '
+            f'({100 * stages[first] / total:.0f} %), then {second} '
+            f'({100 * stages[second] / total:.0f} %).')
 
 
 def stages_block(rows, pictures):
@@ -74,7 +75,7 @@ def stages_block(rows, pictures):
     return '\n'.join([
         f'Median over {clouds} clouds in ms, and in ns a point:', '',
         markdown_table(['stage'] + list(medians), lines), '',
-        *[bounds_sentence(profile, medians[profile]) for profile in medians], '',
+        *[longest_sentence(profile, medians[profile]) for profile in medians], '',
         '![Time of the stages](pictures/performance_stages.png)'])
 
 

@@ -60,7 +60,7 @@ run("${PEERS}" --data "${FOLDER}/data" --repeat 1 --methods mrf_planes pcl_multi
 report()
 expect("${FOLDER}/performance.md" "One object for all 1 clouds"
   "1 clouds, a new object for each" "| stage | FAST | DEFAULT | PAPER |\n"
-  "PAPER is bounded by ")
+  "The longest stage of PAPER is ")
 expect("${FOLDER}/README.md" "One core of Z80, 4 MHz, SDCC, 640x480"
   "over 1 frames" "| profile FAST | ")
 foreach(name points labels stages)
