@@ -113,7 +113,8 @@ void measure(const Frame& frame, const Cloud::ConstPtr& cloud, int repeat,
     addRun(segmenter, cloud, times);
   for (const std::string& name : namesOf(segmenter))
     stream << frame.set << ',' << frame.name << ',' << profile.name << ',' << name
-           << ',' << medianOf(times[name]) << ',' << cloud->size() << '\n';
+           << ',' << medianOf(times[name]) << ',' << cloud->size() << ','
+           << segmenter.planes.size() << '\n';
   std::cout << frame.set << ' ' << frame.name << ' ' << profile.name << ": "
             << medianOf(times[WHOLE]) << " ms" << std::endl;
 }
@@ -143,7 +144,7 @@ void writeCsv(const StageOptions& options)
   const std::string part = options.output + ".part";
   std::ofstream stream(part);
   stream.imbue(std::locale::classic());
-  stream << "set,frame,profile,stage,milliseconds,points\n";
+  stream << "set,frame,profile,stage,milliseconds,points,planes\n";
   if (measureAll(options, stream) == 0)
     throw std::runtime_error("no cloud of the size asked for in '" + options.data +
                              "'");
