@@ -9,8 +9,6 @@ A CSV stands for one or more blocks of the page: what lies between "<!-- begin N
 or does not have their lines, stay as they are. Needs python3-matplotlib.
 """
 import argparse
-import os
-import re
 
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -19,7 +17,7 @@ import accuracy_studies as studies
 from accuracy_tables import (
     COLOURS, DOC, METHODS, SETS, group, in_digits, is_ours, label_of, labelled,
     markdown_table, mean_of, mean_over_sets, milliseconds, ordered_sets, ratio_of,
-    read_rows, save_plot, short)
+    read_rows, replace_block, save_plot, short, write_whole)
 
 PAGE = DOC / 'accuracy.md'
 
@@ -151,14 +149,6 @@ BLOCKS = {
 }
 
 
-def replace_block(page, name, text):
-    begin, end = f'<!-- begin {name} -->', f'<!-- end {name} -->'
-    pattern = re.compile(re.escape(begin) + '.*?' + re.escape(end), re.DOTALL)
-    if not pattern.search(page):
-        raise SystemExit(f'{PAGE} has no block "{begin} ... {end}"')
-    return pattern.sub(lambda _: f'{begin}\n{text}\n{end}', page)
-
-
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -173,10 +163,8 @@ def main():
         for name, block in blocks.items():
             text = block(rows, options['machine']) if rows else None
             if text:
-                page = replace_block(page, name, text)
-    temporary = PAGE.with_suffix('.md.new')
-    temporary.write_text(page)
-    os.replace(temporary, PAGE)
+                page = replace_block(page, name, text, PAGE)
+    write_whole(PAGE, page)
 
 
 if __name__ == '__main__':

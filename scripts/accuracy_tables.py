@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the blocks of doc/accuracy.md share: rows of CSVs, means, tables, plots."""
+"""What the reports share: rows of CSVs, means, tables, plots, blocks of pages."""
 import collections
 import csv
+import os
 import pathlib
+import re
 import statistics
 
 import matplotlib
@@ -101,8 +103,24 @@ def markdown_table(header, rows):
     return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
 
 
-def save_plot(figure, name):
-    path = DOC / 'pictures' / name
+def replace_block(page, name, text, path):
+    """The page with new text between the marks of a block; path is for the message."""
+    begin, end = f'<!-- begin {name} -->', f'<!-- end {name} -->'
+    pattern = re.compile(re.escape(begin) + '.*?' + re.escape(end), re.DOTALL)
+    if not pattern.search(page):
+        raise SystemExit(f'{path} has no block "{begin} ... {end}"')
+    return pattern.sub(lambda _: f'{begin}\n{text}\n{end}', page)
+
+
+def write_whole(path, text):
+    """Whole or not at all."""
+    temporary = path.with_suffix(path.suffix + '.new')
+    temporary.write_text(text)
+    os.replace(temporary, path)
+
+
+def save_plot(figure, name, folder=DOC / 'pictures'):
+    path = folder / name
     # Without the version of matplotlib, so that the same figures give the same file.
     figure.savefig(path, dpi=110, metadata={'Software': None})
     plt.close(figure)

@@ -31,11 +31,14 @@ Labels segmentByClass(const Cloud::ConstPtr& cloud, const Parameters& parameters
 
 namespace {
 
-constexpr const char* PAPER = "paper"; // 0: the profile DEFAULT
+constexpr const char* PROFILE = "profile"; // 0 DEFAULT, 1 FAST, 2 PAPER
 
 Labels segment(const Cloud::ConstPtr& cloud, const Values& values, double& milliseconds)
 {
-  const Profile profile = values.at(PAPER) != 0.0 ? Profile::PAPER : Profile::DEFAULT;
+  const double number = values.at(PROFILE);
+  const Profile profile = number == 2.0   ? Profile::PAPER
+                          : number == 1.0 ? Profile::FAST
+                                          : Profile::DEFAULT;
   return segmentByClass(cloud, Parameters::fromProfile(profile), milliseconds);
 }
 
@@ -45,8 +48,9 @@ Peer makeOurs()
 {
   return {"mrf_planes",
           "this library",
-          {{"paper", "profile PAPER", {{PAPER, 1.0}}},
-           {"default", "profile DEFAULT", {{PAPER, 0.0}}}},
+          {{"paper", "profile PAPER", {{PROFILE, 2.0}}},
+           {"fast", "profile FAST", {{PROFILE, 1.0}}},
+           {"default", "profile DEFAULT", {{PROFILE, 0.0}}}},
           segment};
 }
 
