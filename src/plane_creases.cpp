@@ -153,6 +153,14 @@ std::vector<PlaneCrease> findCreases(const OrganizedPoints& points,
   return creases;
 }
 
+PlaneCrease inCloudFrame(const PlaneCrease& crease, const SensorPose& pose)
+{
+  PlaneCrease out = crease;
+  out.start = pose.rotation * crease.start + pose.origin;
+  out.end = pose.rotation * crease.end + pose.origin;
+  return out;
+}
+
 double normalAngle(const Plane& a, const Plane& b)
 {
   return std::atan2(a.normal.cross(b.normal).norm(), a.normal.dot(b.normal));

@@ -157,6 +157,22 @@ std::string OutlineParameters::validate() const
   return {};
 }
 
+RegionOutline inCloudFrame(const RegionOutline& outline, const SensorPose& pose)
+{
+  const auto move = [&](PlaneRing& ring) {
+    for (Eigen::Vector3d& corner : ring)
+      corner = pose.rotation * corner + pose.origin;
+  };
+  RegionOutline out = outline;
+  move(out.hull);
+  for (PlanePolygon& patch : out.patches) {
+    move(patch.outer);
+    for (PlaneRing& hole : patch.holes)
+      move(hole);
+  }
+  return out;
+}
+
 std::vector<RegionOutline> outlineRegions(const OrganizedPoints& points,
                                           const std::vector<PlaneRegion>& regions,
                                           const OutlineParameters& parameters)

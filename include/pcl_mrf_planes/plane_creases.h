@@ -4,6 +4,7 @@
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/plane.h>
 #include <pcl_mrf_planes/plane_regions.h>
+#include <pcl_mrf_planes/sensor_pose.h>
 
 #include <Eigen/Core>
 
@@ -49,6 +50,9 @@ struct CreaseParameters {
 std::vector<PlaneCrease> findCreases(const OrganizedPoints& points,
                                      const std::vector<PlaneRegion>& regions,
                                      const CreaseParameters& parameters = {});
+
+/** \brief The same crease in the frame of the cloud. */
+PlaneCrease inCloudFrame(const PlaneCrease& crease, const SensorPose& pose);
 
 /** \brief Angle between the normals of two planes, radians, 0 to pi; the supplement of the
  * one that a protractor shows inside a corner. */

@@ -3,6 +3,7 @@
 
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/plane_regions.h>
+#include <pcl_mrf_planes/sensor_pose.h>
 
 #include <Eigen/Core>
 
@@ -54,5 +55,8 @@ struct OutlineParameters {
 std::vector<RegionOutline> outlineRegions(const OrganizedPoints& points,
                                           const std::vector<PlaneRegion>& regions,
                                           const OutlineParameters& parameters = {});
+
+/** \brief The same outline in the frame of the cloud. */
+RegionOutline inCloudFrame(const RegionOutline& outline, const SensorPose& pose);
 
 } // namespace pcl_mrf_planes

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/label_gap.h"
+
+#include "adaptive/candidate_field.h"
+#include "adaptive/noise_estimation.h"
+#include "adaptive/tile_pyramid.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace pcl_mrf_planes::adaptive {
+
+namespace {
+
+constexpr int SIDE = CandidateBlocks::SIDE;
+constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
+constexpr int REACH = 2;            ///< of a label from its points, blocks
+constexpr float CUT = 3.0f;         ///< of the data cost over "no plane"'s
+constexpr double STEP_SHARE = 0.01; ///< of the range: a slope, not a step
+
+/// What the field knows of a plane, from its region.
+FittedPlane fittedPlane(const PlaneRegion& region)
+{
+  FittedPlane out;
+  static_cast<Plane&>(out) = region.plane;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(region.covariance,
+                                                            Eigen::EigenvaluesOnly);
+  out.mse = region.rms * region.rms;
+  out.extent = std::sqrt(std::max(axes.eigenvalues()[2], 0.0));
+  out.width = std::sqrt(std::max(axes.eigenvalues()[1], 0.0));
+  out.n = static_cast<double>(region.indices.size());
+  out.centroid = region.centroid;
+  return out;
+}
+
+/// Region of the first labelled point of each cell, or -1: enough to say what is near.
+std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& points,
+                             const std::vector<std::uint16_t>& labels)
+{
+  std::vector<int> regions(cells.sums.size(), -1);
+  for (int y = 0; y < points.height; ++y)
+    for (int x = 0; x < points.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * points.width + x);
+      int& region = regions[cells.at(x / CELL, y / CELL)];
+      if (labels[i] != 0 && region < 0)
+        region = labels[i] - 1;
+    }
+  return regions;
+}
+
+/// A label that may be had in a block, and how its data cost is computed.
+struct Candidate {
+  std::uint16_t label;
+  float a, b, c, d; ///< of its plane
+  float per_sigma;
+};
+
+/// Costs of the random field around final labels.
+class GapFinder {
+public:
+  GapFinder(const OrganizedPoints& points, const std::vector<PlaneRegion>& regions,
+            const std::vector<std::uint16_t>& labels, const Parameters& parameters)
+  : points_(points)
+  , labels_(labels)
+  , parameters_(parameters.adaptive)
+  , none_(static_cast<float>(parameters.adaptive.none_cost))
+  , width_(static_cast<std::size_t>(points.width))
+  , pyramid_(buildTilePyramid(points, parameters_))
+  , noise_(parameters_.estimate_noise
+               ? estimateNoise(pyramid_, parameters_)
+               : statedNoise(parameters.noise, pyramid_, parameters_))
+  , right_(width_, 0.0f)
+  , above_(width_, 0.0f)
+  , below_(width_, 0.0f)
+  {
+    assignLocalNoise(pyramid_, noise_, parameters_);
+    for (const PlaneRegion& region : regions)
+      regions_.planes.push_back(fittedPlane(region));
+    regions_.cell_region = cellRegions(pyramid_[0], points, labels);
+    blocks_ = findCandidates(regions_, pyramid_[0], points.width, points.height, REACH);
+    per_step_.resize(static_cast<std::size_t>(blocks_.columns));
+    candidates_.resize(per_step_.size() * SLOTS);
+  }
+
+  std::vector<float> find()
+  {
+    std::vector<float> gaps(points_.size(), 0.0f);
+    for (int y = 0; y < points_.height; ++y) {
+      if (y % SIDE == 0)
+        for (int column = 0; column < blocks_.columns; ++column)
+          prepare(column, y / SIDE);
+      weigh(y);
+      const std::size_t row = static_cast<std::size_t>(y) * width_;
+      for (std::size_t x = 0; x < width_; ++x)
+        if (points_.valid[row + x] != 0)
+          gaps[row + x] = gapAt(x, y, row + x);
+      std::swap(above_, below_);
+    }
+    return gaps;
+  }
+
+private:
+  /// What all points of a block share.
+  void prepare(int column, int row)
+  {
+    const TileLevel& cells = pyramid_[0];
+    TileSums sums;
+    for (int r = 2 * row; r < std::min(2 * row + 2, cells.rows); ++r)
+      for (int c = 2 * column; c < std::min(2 * column + 2, cells.columns); ++c)
+        sums += cells.sums[cells.at(c, r)];
+    const double range = sums.n > 0 ? sums.centroid().norm() : 1.0;
+    const double variance = sums.n > 0 ? sums.noise / sums.n : 1.0;
+    const auto at = static_cast<std::size_t>(column);
+    per_step_[at] = static_cast<float>(
+        1.0 / (parameters_.step_sigmas * noise_.small(range) + STEP_SHARE * range));
+    const std::size_t block = blocks_.at(column, row);
+    for (std::size_t s = 0; s < blocks_.count[block]; ++s)
+      candidates_[at * SLOTS + s] = candidate(blocks_.labelsOf(block)[s], variance);
+  }
+
+  Candidate candidate(std::uint16_t label, double variance) const
+  {
+    if (label == 0)
+      return {0, 0, 0, 0, 0, 0};
+    const FittedPlane& p = regions_.planes[label - 1U];
+    const double growth = noise_.growthOf(p.n);
+    const double bend =
+        std::min(parameters_.flatness * p.extent, parameters_.max_flatness);
+    const double allowed =
+        growth * growth * incidenceFactor(p) * variance + bend * bend;
+    return {label,
+            static_cast<float>(p.normal.x()),
+            static_cast<float>(p.normal.y()),
+            static_cast<float>(p.normal.z()),
+            static_cast<float>(p.d),
+            static_cast<float>(1.0 / std::sqrt(allowed))};
+  }
+
+  /// Prices of changes to the right of and below the points of a row.
+  void weigh(int y)
+  {
+    const float* here = points_.depthRow(y, depth_[0]);
+    const std::uint8_t* valid = &points_.valid[static_cast<std::size_t>(y) * width_];
+    for (std::size_t x = 0; x + 1 < width_; ++x)
+      right_[x] = weight(here[x] - here[x + 1], x, valid[x] & valid[x + 1]);
+    const bool last = y + 1 == points_.height;
+    const float* next = last ? here : points_.depthRow(y + 1, depth_[1]);
+    for (std::size_t x = 0; x < width_; ++x)
+      below_[x] =
+          last ? 0.0f : weight(here[x] - next[x], x, valid[x] & valid[x + width_]);
+  }
+
+  float weight(float difference, std::size_t x, int edge) const
+  {
+    const float step = difference * per_step_[x / SIDE];
+    const float share = std::max(1.0f / (1.0f + step * step),
+                                 static_cast<float>(parameters_.min_weight));
+    return static_cast<float>(parameters_.label_change) * share *
+           static_cast<float>(edge);
+  }
+
+  /// Data cost, equation (7) in sigmas.
+  float data(std::size_t i, const Candidate& c) const
+  {
+    const float distance =
+        std::abs(c.a * points_.x[i] + c.b * points_.y[i] + c.c * points_.z[i] + c.d);
+    return c.label == 0 ? none_ : std::min(distance * c.per_sigma, CUT * none_);
+  }
+
+  float gapAt(std::size_t x, int y, std::size_t i) const
+  {
+    const std::uint16_t mine = labels_[i];
+    // A neighbour outside the image has weight 0, and the label of the point itself.
+    const float weights[] = {x > 0 ? right_[x - 1] : 0.0f,
+                             x + 1 < width_ ? right_[x] : 0.0f, above_[x], below_[x]};
+    const std::uint16_t others[] = {
+        x > 0 ? labels_[i - 1] : mine, x + 1 < width_ ? labels_[i + 1] : mine,
+        y > 0 ? labels_[i - width_] : mine,
+        y + 1 < points_.height ? labels_[i + width_] : mine};
+    // What a label saves where a neighbour has it as well.
+    const auto saved = [&](std::uint16_t label) {
+      float sum = 0.0f;
+      for (std::size_t k = 0; k < 4; ++k)
+        sum += others[k] == label ? weights[k] : 0.0f;
+      return sum;
+    };
+    const Candidate* candidates = &candidates_[x / SIDE * SLOTS];
+    const std::size_t count =
+        blocks_.count[blocks_.at(static_cast<int>(x) / SIDE, y / SIDE)];
+    // "No plane" stands beside a plane that was not found and fits no better.
+    float own = mine == 0 ? none_ - saved(0) : CUT * none_;
+    float least = mine == 0 ? none_ : std::numeric_limits<float>::max();
+    for (std::size_t s = 0; s < count; ++s) {
+      const float cost = data(i, candidates[s]) - saved(candidates[s].label);
+      if (candidates[s].label == mine)
+        own = cost;
+      else
+        least = std::min(least, cost);
+    }
+    return std::max(0.0f, least - own);
+  }
+
+  const OrganizedPoints& points_;
+  const std::vector<std::uint16_t>& labels_;
+  const AdaptiveParameters& parameters_;
+  float none_;
+  std::size_t width_;
+  std::vector<TileLevel> pyramid_;
+  NoiseLaw noise_;
+  TileRegions regions_;
+  CandidateBlocks blocks_;
+  // of the row of blocks, and the row of points, at hand
+  std::vector<float> per_step_;
+  std::vector<Candidate> candidates_; ///< SLOTS a block
+  std::vector<float> right_, above_, below_;
+  std::vector<float> depth_[2];
+};
+
+} // namespace
+
+std::vector<float> labelGaps(const OrganizedPoints& points,
+                             const std::vector<PlaneRegion>& regions,
+                             const std::vector<std::uint16_t>& labels,
+                             const Parameters& parameters)
+{
+  return GapFinder(points, regions, labels, parameters).find();
+}
+
+} // namespace pcl_mrf_planes::adaptive
