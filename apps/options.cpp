@@ -75,6 +75,7 @@ po::options_description allVisible()
   po::options_description all;
   all.add(fileOptions())
       .add(runOptions())
+      .add(regionOptions())
       .add(describe("Parameters", commonParameterOptions()))
       .add(
           describe("Parameters of profile default", parameterOptions(Method::ADAPTIVE)))
@@ -145,11 +146,13 @@ void readParameters(const po::variables_map& values, Options& options)
 /// Files that would overwrite each other; only OUT.pcd may be the input.
 void checkFileNames(const Options& options)
 {
-  const std::vector<std::pair<std::string, std::string>> outputs = {
+  std::vector<std::pair<std::string, std::string>> outputs = {
       {"OUT.pcd", options.output},
       {"--models", options.models},
       {"--label-image", options.label_image},
       {"--overlay", options.overlay}};
+  for (const auto& file : options.regions.files())
+    outputs.push_back(file);
   for (std::size_t i = 1; i < outputs.size(); ++i)
     if (sameFile(outputs[i].second, options.input))
       throw UsageError(outputs[i].first + " would overwrite the input '" +
@@ -172,7 +175,7 @@ void readFileNames(const po::variables_map& values, Options& options)
   options.label_image = given(values, "label-image");
   options.overlay = given(values, "overlay");
   if (options.output.empty() && options.models.empty() && options.label_image.empty() &&
-      options.overlay.empty() && !options.timing)
+      options.overlay.empty() && !options.timing && !options.regions.writesFiles())
     throw UsageError("nothing to write; name OUT.pcd, or give --models, --label-image, "
                      "--overlay or --timing");
   checkFileNames(options);
@@ -202,6 +205,7 @@ Options parseOptions(int argc, const char* const argv[])
     if (values.count("repeat") != 0)
       options.repeat = parseInteger("repeat", given(values, "repeat"), 1, MOST_REPEATS);
     readParameters(values, options);
+    options.regions = readRegionOptions(values);
     readFileNames(values, options);
   }
   catch (const po::error& problem) {

@@ -3,6 +3,7 @@
 
 #include "parameter_options.h"
 #include "pcd_header.h"
+#include "region_options.h"
 
 #include <pcl_mrf_planes/parameters.h>
 
@@ -26,6 +27,7 @@ struct Options {
   bool quiet = false;
   std::string profile = "default";
   Parameters parameters;
+  RegionOptions regions;
 };
 
 /** \brief Read the command line and the configuration file it names.

@@ -5,6 +5,7 @@
 #include "options.h"
 #include "output_file.h"
 #include "pictures.h"
+#include "region_files.h"
 #include "report_json.h"
 #include "segmented_cloud.h"
 #include "table.h"
@@ -47,6 +48,9 @@ void checkOutputs(const Options& options)
        {options.output, options.models, options.label_image, options.overlay})
     if (!path.empty())
       checkWritable(path);
+  for (const auto& file : options.regions.files())
+    if (!file.second.empty())
+      checkWritable(file.second);
 }
 
 void writeOutputs(const Options& options, const CloudFile& file,
@@ -61,9 +65,12 @@ void writeOutputs(const Options& options, const CloudFile& file,
     writePicture(options.overlay,
                  overlay(inSensorFrame(cloud, options.parameters.depth_measure),
                          colours(file), result.labels));
+  writeRegionFiles(options.regions, file, result.labels, result.analysis);
   if (!options.output.empty())
-    writeCloud(options.output, withLabels(file, result.labels),
-               options.format.value_or(file.format));
+    writeCloud(
+        options.output,
+        withRegions(options.regions, withLabels(file, result.labels), result.analysis),
+        options.format.value_or(file.format));
 }
 
 void run(const Options& options)
@@ -71,8 +78,9 @@ void run(const Options& options)
   checkOutputs(options);
   const CloudFile file = readOrganizedCloud(options.input);
   const auto cloud = aboutInput(options, [&] { return coordinates(file); });
-  const SegmentedCloud result = aboutInput(
-      options, [&] { return segmentCloud(cloud, options.parameters, options.repeat); });
+  const SegmentedCloud result = aboutInput(options, [&] {
+    return segmentCloud(cloud, options.parameters, options.repeat, options.regions);
+  });
   writeOutputs(options, file, *cloud, result);
   if (options.quiet)
     return;

@@ -2,6 +2,7 @@
 #include "report_json.h"
 
 #include "output_file.h"
+#include "region_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -60,6 +61,7 @@ Json planesJson(const SegmentedCloud& result)
                       {"area_m2", plane.area},
                       {"rms_m", plane.rms},
                       {"centroid", {centroid[0], centroid[1], centroid[2]}}});
+    describePlane(result.analysis, planes.size() - 1, planes.back());
   }
   return planes;
 }
@@ -103,6 +105,8 @@ void writeReport(const std::string& path, const SegmentedCloud& result,
   report["input"] = options.input;
   report["counts"] = countsJson(result);
   report["planes"] = planesJson(result);
+  if (options.regions.creases)
+    describeCreases(result.analysis, report);
   if (!result.report.energy.empty())
     report["energy"] = energyJson(result.report);
   report["parameters"] = parametersJson(options);

@@ -6,12 +6,16 @@
 namespace pcl_mrf_planes::apps {
 
 SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& cloud,
-                            const Parameters& parameters, int repeat)
+                            const Parameters& parameters, int repeat,
+                            const RegionOptions& region_options)
 {
   using Segmentation = pcl::MRFPlaneSegmentation<pcl::PointXYZ>;
   Segmentation segmentation;
   segmentation.setParameters(parameters);
   segmentation.setInputCloud(cloud);
+  segmentation.setSeparatePatches(region_options.separate_patches);
+  segmentation.setOutlineParameters(region_options.outline);
+  segmentation.setCreaseParameters(region_options.crease);
 
   SegmentedCloud result;
   std::vector<pcl::ModelCoefficients> models;
@@ -38,6 +42,7 @@ SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& clou
     result.planes.push_back({Eigen::Vector4f(models[k].values.data()), centroids[k],
                              inliers[k].indices.size(), regions[k].area,
                              regions[k].rms});
+  result.analysis = analyseRegions(segmentation, region_options);
   return result;
 }
 
