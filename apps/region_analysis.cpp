@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "region_analysis.h"
 
+#include <chrono>
+
 namespace pcl_mrf_planes::apps {
 
 namespace {
@@ -22,17 +24,28 @@ analyseRegions(const pcl::MRFPlaneSegmentation<pcl::PointXYZ>& segmentation,
                const RegionOptions& options)
 {
   RegionAnalysis analysis;
-  segmentation.computeUncertainties(analysis.uncertainties);
+  const auto timed = [&](const char* name, const auto& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double, std::milli> time =
+        std::chrono::steady_clock::now() - start;
+    analysis.stage_ms.emplace_back(name, time.count());
+  };
+  timed("uncertainties",
+        [&] { segmentation.computeUncertainties(analysis.uncertainties); });
   if (options.outlines || !options.polygons.empty())
-    segmentation.computeOutlines(analysis.outlines);
-  if (options.creases) {
-    segmentation.computeCreases(analysis.creases);
-    analysis.relations = relate(segmentation.getResult().regions);
-  }
+    timed("outlines", [&] { segmentation.computeOutlines(analysis.outlines); });
+  if (options.creases)
+    timed("creases", [&] {
+      segmentation.computeCreases(analysis.creases);
+      analysis.relations = relate(segmentation.getResult().regions);
+    });
   if (options.confidence || !options.confidence_image.empty())
-    segmentation.computeConfidence(analysis.confidence);
+    timed("confidence", [&] { segmentation.computeConfidence(analysis.confidence); });
   if (options.project)
-    segmentation.projectOntoPlanes(analysis.projected, *options.project);
+    timed("projection", [&] {
+      segmentation.projectOntoPlanes(analysis.projected, *options.project);
+    });
   return analysis;
 }
 

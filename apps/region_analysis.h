@@ -6,6 +6,8 @@
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 
 #include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_mrf_planes::apps {
@@ -27,6 +29,7 @@ struct RegionAnalysis {
   std::vector<RegionRelation> relations; ///< of all pairs, with the creases
   std::vector<float> confidence;
   pcl::PointCloud<pcl::PointXYZ> projected;
+  std::vector<std::pair<std::string, double>> stage_ms; ///< of what was asked for
 };
 
 /** \brief Work out what the options ask for from the last run. */

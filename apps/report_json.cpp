@@ -110,8 +110,11 @@ void writeReport(const std::string& path, const SegmentedCloud& result,
   if (!result.report.energy.empty())
     report["energy"] = energyJson(result.report);
   report["parameters"] = parametersJson(options);
-  if (options.timing)
+  if (options.timing) {
     report["timing"] = timingJson(result.timing);
+    for (const auto& stage : result.analysis_timing.stages())
+      report["timing"]["analysis"][stage.first] = stage.second.median;
+  }
   const std::string text =
       report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
   writeAtomically(path, [&](const std::string& temporary) {

@@ -32,6 +32,8 @@ SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& clou
                                " points); cut it into parts or raise "
                                "--merge-threshold");
     result.timing.add(segmentation.getReport().stage_ms);
+    result.analysis = analyseRegions(segmentation, region_options);
+    result.analysis_timing.add(result.analysis.stage_ms);
   }
   result.report = segmentation.getReport();
   if (result.report.valid_points == 0)
@@ -42,7 +44,6 @@ SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& clou
     result.planes.push_back({Eigen::Vector4f(models[k].values.data()), centroids[k],
                              inliers[k].indices.size(), regions[k].area,
                              regions[k].rms});
-  result.analysis = analyseRegions(segmentation, region_options);
   return result;
 }
 

@@ -30,6 +30,7 @@ struct SegmentedCloud {
   SegmentationReport report;
   RegionAnalysis analysis;
   Timing timing;
+  Timing analysis_timing;
 };
 
 /** \brief Segment \a cloud \a repeat times with the same result, and time it.

@@ -140,6 +140,8 @@ TEST_P(CoverageTest, TruthLiesInsideTheEllipsoidAsOftenAsItShould)
           coverage.count(found[k].squaredDistance(truePlane(frame, regions[k].label)));
     }
   }
+  RecordProperty("planes", coverage.planes());
+  RecordProperty("share", std::to_string(coverage.share()));
   EXPECT_GT(coverage.planes(), 600);
   EXPECT_NEAR(coverage.share(), 0.95, 0.025) << coverage.planes() << " planes";
 }
@@ -182,6 +184,9 @@ TEST_P(CoverageTest, HoldsForPlanesThatTheDefaultProfileFinds)
         }
     }
   }
+  RecordProperty("planes", coverage.planes());
+  RecordProperty("share", std::to_string(coverage.share()));
+  RecordProperty("share_biased", std::to_string(biased.share()));
   EXPECT_GT(coverage.planes(), 60);
   EXPECT_GT(coverage.share(), 0.85) << coverage.planes() << " planes";
   EXPECT_GT(coverage.share(), biased.share()) << "the bias is worth subtracting";

@@ -83,6 +83,7 @@ TEST_F(RegionReports, OutlinesAndCreasesLieOnThePlanes)
 {
   run({"--models", path("m.json"), "--outlines", "--creases"});
   const Json planes = report()["planes"];
+  EXPECT_FALSE(report().contains("timing"));
   for (const Json& plane : planes) {
     const Eigen::Vector4d abcd = coefficientsOf(plane);
     double area = 0;
@@ -161,6 +162,15 @@ TEST_F(RegionReports, OutputsGetConfidenceAndPointsOnTheirPlanes)
     ASSERT_TRUE(confidence >= 0.0f && confidence <= 1.0f);
   }
   EXPECT_EQ(files().count("c.png"), 1U);
+}
+
+TEST_F(RegionReports, WhatWasAskedForIsTimed)
+{
+  run({"--models", path("m.json"), "--timing", "--creases", "--repeat", "2"});
+  const Json analysis = report()["timing"]["analysis"];
+  EXPECT_EQ(analysis.size(), 2U);
+  EXPECT_GT(analysis["uncertainties"].get<double>(), 0.0);
+  EXPECT_GT(analysis["creases"].get<double>(), 0.0);
 }
 
 TEST_F(RegionReports, WhatCannotBeIsRefused)
