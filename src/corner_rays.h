@@ -9,9 +9,10 @@ namespace pcl_mrf_planes {
 
 /// Rays through the corners of the pixels of an image, from those through the points.
 ///
-/// A ray is p / depth: of z = 1 for cameras, which makes it linear in the pixel, of unit
-/// length for lidars. A corner's is the mean of what its valid pixels say, each its own ray
-/// and half a step to the corner.
+/// A ray is p / depth: of z = 1 for cameras, of unit length for lidars. A pinhole's is linear
+/// in the pixel; if samples all over the image agree with that, so is every corner's. Else a
+/// corner's is the mean of what its valid pixels say, each its own ray and half a step to
+/// the corner.
 class CornerRays {
 public:
   explicit CornerRays(const OrganizedPoints& points);
@@ -24,6 +25,8 @@ public:
   Eigen::Vector3d cornerRay(int x, int y) const;
 
 private:
+  void findUsualSteps();
+  void fitPinhole();
   bool isValid(int x, int y) const;
   Eigen::Vector3d rayAt(int x, int y) const;
   /// Change of the ray from a pixel to the next, (1, 0) or (0, 1) away.
@@ -31,6 +34,8 @@ private:
 
   const OrganizedPoints& points_;
   Eigen::Vector3d usual_step_[2]; ///< right and down, where a pixel has no neighbour
+  bool is_pinhole_ = false;
+  Eigen::Matrix<double, 3, 3> pinhole_; ///< ray of (1, x, y), pixels
 };
 
 } // namespace pcl_mrf_planes

@@ -83,8 +83,8 @@ public:
       regions_.planes.push_back(fittedPlane(region));
     regions_.cell_region = cellRegions(pyramid_[0], points, labels);
     blocks_ = findCandidates(regions_, pyramid_[0], points.width, points.height, REACH);
-    per_step_.resize(static_cast<std::size_t>(blocks_.columns));
-    candidates_.resize(per_step_.size() * SLOTS);
+    per_step_.resize(width_);
+    candidates_.resize(static_cast<std::size_t>(blocks_.columns) * SLOTS);
   }
 
   std::vector<float> find()
@@ -116,8 +116,10 @@ private:
     const double range = sums.n > 0 ? sums.centroid().norm() : 1.0;
     const double variance = sums.n > 0 ? sums.noise / sums.n : 1.0;
     const auto at = static_cast<std::size_t>(column);
-    per_step_[at] = static_cast<float>(
+    const auto per_step = static_cast<float>(
         1.0 / (parameters_.step_sigmas * noise_.small(range) + STEP_SHARE * range));
+    std::fill_n(&per_step_[at * SIDE], std::min<std::size_t>(SIDE, width_ - at * SIDE),
+                per_step);
     const std::size_t block = blocks_.at(column, row);
     for (std::size_t s = 0; s < blocks_.count[block]; ++s)
       candidates_[at * SLOTS + s] = candidate(blocks_.labelsOf(block)[s], variance);
@@ -146,22 +148,26 @@ private:
   {
     const float* here = points_.depthRow(y, depth_[0]);
     const std::uint8_t* valid = &points_.valid[static_cast<std::size_t>(y) * width_];
-    for (std::size_t x = 0; x + 1 < width_; ++x)
-      right_[x] = weight(here[x] - here[x + 1], x, valid[x] & valid[x + 1]);
-    const bool last = y + 1 == points_.height;
-    const float* next = last ? here : points_.depthRow(y + 1, depth_[1]);
-    for (std::size_t x = 0; x < width_; ++x)
-      below_[x] =
-          last ? 0.0f : weight(here[x] - next[x], x, valid[x] & valid[x + width_]);
+    weigh(here, here + 1, valid, valid + 1, width_ - 1, right_.data());
+    if (y + 1 < points_.height)
+      weigh(here, points_.depthRow(y + 1, depth_[1]), valid, valid + width_, width_,
+            below_.data());
+    else
+      std::fill(below_.begin(), below_.end(), 0.0f);
   }
 
-  float weight(float difference, std::size_t x, int edge) const
+  void weigh(const float* a, const float* b, const std::uint8_t* a_valid,
+             const std::uint8_t* b_valid, std::size_t count, float* out) const
   {
-    const float step = difference * per_step_[x / SIDE];
-    const float share = std::max(1.0f / (1.0f + step * step),
-                                 static_cast<float>(parameters_.min_weight));
-    return static_cast<float>(parameters_.label_change) * share *
-           static_cast<float>(edge);
+    const auto least = static_cast<float>(parameters_.min_weight);
+    const auto price = static_cast<float>(parameters_.label_change);
+    const float* per_step = per_step_.data();
+    for (std::size_t x = 0; x < count; ++x) {
+      const float step = (a[x] - b[x]) * per_step[x];
+      const float falling = 1.0f / (1.0f + step * step);
+      const float share = falling > least ? falling : least;
+      out[x] = price * share * static_cast<float>(a_valid[x] & b_valid[x]);
+    }
   }
 
   /// Data cost, equation (7) in sigmas.
@@ -172,8 +178,38 @@ private:
     return c.label == 0 ? none_ : std::min(distance * c.per_sigma, CUT * none_);
   }
 
+  /// Where all neighbours agree, which is nearly everywhere: nothing else saves anything.
+  float gapInside(std::size_t x, int y, std::size_t i) const
+  {
+    const std::uint16_t mine = labels_[i];
+    const Candidate* candidates = &candidates_[x / SIDE * SLOTS];
+    const std::size_t count =
+        blocks_.count[blocks_.at(static_cast<int>(x) / SIDE, y / SIDE)];
+    float own = mine == 0 ? none_ : CUT * none_;
+    float least = mine == 0 ? none_ : std::numeric_limits<float>::max();
+    for (std::size_t s = 0; s < count; ++s) {
+      const float cost = data(i, candidates[s]);
+      if (candidates[s].label == mine)
+        own = cost;
+      else
+        least = std::min(least, cost);
+    }
+    const float all = right_[x - 1] + right_[x] + above_[x] + below_[x];
+    return std::max(0.0f, least - own + all);
+  }
+
+  bool neighboursAgree(std::size_t x, int y, std::size_t i) const
+  {
+    const std::uint16_t mine = labels_[i];
+    return x > 0 && x + 1 < width_ && y > 0 && y + 1 < points_.height &&
+           labels_[i - 1] == mine && labels_[i + 1] == mine &&
+           labels_[i - width_] == mine && labels_[i + width_] == mine;
+  }
+
   float gapAt(std::size_t x, int y, std::size_t i) const
   {
+    if (neighboursAgree(x, y, i))
+      return gapInside(x, y, i);
     const std::uint16_t mine = labels_[i];
     // A neighbour outside the image has weight 0, and the label of the point itself.
     const float weights[] = {x > 0 ? right_[x - 1] : 0.0f,
