@@ -19,11 +19,10 @@ std::vector<RegionRelation> relate(const std::vector<PlaneRegion>& regions)
 
 } // namespace
 
-RegionAnalysis
-analyseRegions(const pcl::MRFPlaneSegmentation<pcl::PointXYZ>& segmentation,
-               const RegionOptions& options)
+void analyseRegions(const pcl::MRFPlaneSegmentation<pcl::PointXYZ>& segmentation,
+                    const RegionOptions& options, RegionAnalysis& analysis)
 {
-  RegionAnalysis analysis;
+  analysis.stage_ms.clear();
   const auto timed = [&](const char* name, const auto& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
@@ -46,7 +45,6 @@ analyseRegions(const pcl::MRFPlaneSegmentation<pcl::PointXYZ>& segmentation,
     timed("projection", [&] {
       segmentation.projectOntoPlanes(analysis.projected, *options.project);
     });
-  return analysis;
 }
 
 } // namespace pcl_mrf_planes::apps

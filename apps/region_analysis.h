@@ -32,9 +32,9 @@ struct RegionAnalysis {
   std::vector<std::pair<std::string, double>> stage_ms; ///< of what was asked for
 };
 
-/** \brief Work out what the options ask for from the last run. */
-RegionAnalysis
-analyseRegions(const pcl::MRFPlaneSegmentation<pcl::PointXYZ>& segmentation,
-               const RegionOptions& options);
+/** \brief Work out what the options ask for from the last run.
+ * \param[out] analysis the result; memory that it has is used again */
+void analyseRegions(const pcl::MRFPlaneSegmentation<pcl::PointXYZ>& segmentation,
+                    const RegionOptions& options, RegionAnalysis& analysis);
 
 } // namespace pcl_mrf_planes::apps

@@ -32,7 +32,7 @@ SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& clou
                                " points); cut it into parts or raise "
                                "--merge-threshold");
     result.timing.add(segmentation.getReport().stage_ms);
-    result.analysis = analyseRegions(segmentation, region_options);
+    analyseRegions(segmentation, region_options, result.analysis);
     result.analysis_timing.add(result.analysis.stage_ms);
   }
   result.report = segmentation.getReport();

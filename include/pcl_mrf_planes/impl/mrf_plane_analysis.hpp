@@ -191,21 +191,23 @@ template <typename PointT>
 void MRFPlaneSegmentation<PointT>::projectOntoPlanes(PointCloud& output,
                                                      ProjectionWay way) const
 {
-  PointCloud projected;
+  bool done = false;
   analyse("projectOntoPlanes", [&] {
-    projected = *input_;
+    output = *input_; // memory that the output has is used again
     for (const pcl_mrf_planes::PlaneRegion& region : result_.regions)
       for (const int index : region.indices) {
         const auto i = static_cast<std::size_t>(index);
         const Eigen::Vector3d p = pcl_mrf_planes::projectPoint(
             {points_.x[i], points_.y[i], points_.z[i]}, region.plane, way);
         const Eigen::Vector3d q = pose_.rotation * p + pose_.origin;
-        projected[i].x = static_cast<float>(q.x());
-        projected[i].y = static_cast<float>(q.y());
-        projected[i].z = static_cast<float>(q.z());
+        output[i].x = static_cast<float>(q.x());
+        output[i].y = static_cast<float>(q.y());
+        output[i].z = static_cast<float>(q.z());
       }
+    done = true;
   });
-  output = std::move(projected);
+  if (!done)
+    output = PointCloud();
 }
 
 template <typename PointT>
