@@ -113,7 +113,9 @@ void writeReport(const std::string& path, const SegmentedCloud& result,
   if (options.timing) {
     report["timing"] = timingJson(result.timing);
     for (const auto& stage : result.analysis_timing.stages())
-      report["timing"]["analysis"][stage.first] = stage.second.median;
+      report["timing"]["analysis"][stage.first] = {{"median", stage.second.median},
+                                                   {"min", stage.second.least},
+                                                   {"max", stage.second.most}};
   }
   const std::string text =
       report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

@@ -27,6 +27,7 @@ from accuracy_report import PAGE, replace_block
 from accuracy_tables import COLOURS, SETS, markdown_table, save_plot
 
 BINS = 20
+RUNS = 9
 NOT_SCORED = 65535
 
 
@@ -48,7 +49,7 @@ def run_app(app, cloud, folder):
     """Labels, confidence and times of a frame."""
     files = {name: folder / name for name in ('labels.png', 'confidence.png', 'report.json')}
     subprocess.run(
-        [app, cloud, '--quiet', '--timing', '--repeat', '5', '--outlines', '--creases',
+        [app, cloud, '--quiet', '--timing', '--repeat', str(RUNS), '--outlines', '--creases',
          '--project', 'ray', '--label-image', files['labels.png'],
          '--confidence-image', files['confidence.png'], '--models', files['report.json']],
         check=True)
@@ -87,8 +88,8 @@ def plot_calibration(points):
     axes.plot([0, 1], [0, 1], ':', color='gray', label='as stated')
     axes.set_xlabel('confidence, mean of a twentieth of the points')
     axes.set_ylabel('share of points with the right label')
-    axes.set_xlim(0, 1)
-    axes.set_ylim(0, 1.02)
+    axes.set_xlim(0.6, 1)
+    axes.set_ylim(0.4, 1.01)
     axes.grid(True, alpha=0.25)
     axes.legend(fontsize=8, loc='lower right')
     return save_plot(figure, 'confidence.png')
@@ -119,15 +120,17 @@ def confidence_block(points):
 def cost_block(reports):
     timed = [report for report in reports
              if (report['counts']['width'], report['counts']['height']) == (640, 480)]
-    names = list(timed[0]['timing']['analysis'])
-    of = {name: statistics.median(report['timing']['analysis'][name] for report in timed)
-          for name in names}
-    all_of_it = statistics.median(sum(report['timing']['analysis'].values())
-                                  for report in timed)
-    segmentation = statistics.median(report['timing']['total_ms'] for report in timed)
-    cells = [f'{value:.1f}' for value in [*of.values(), all_of_it, segmentation]]
-    return (f'Milliseconds, medians of {len(timed)} frames of 640x480, one thread:\n\n' +
-            markdown_table(names + ['all', 'the segmentation itself'], [cells]))
+    analysis = [report['timing']['analysis'] for report in timed]
+    # The least of the runs of a frame: what else the machine does has no say.
+    cells = [statistics.median(one[name]['min'] for one in analysis) for name in analysis[0]]
+    cells.append(statistics.median(sum(stage['min'] for stage in one.values())
+                                   for one in analysis))
+    cells.append(statistics.median(report['timing']['spread']['total_ms']['min']
+                                   for report in timed))
+    return (f'Milliseconds, medians of {len(timed)} frames of 640x480, least of {RUNS} runs, '
+            'one thread:\n\n' +
+            markdown_table([*analysis[0], 'all', 'the segmentation itself'],
+                           [[f'{cell:.1f}' for cell in cells]]))
 
 
 # --- block: uncertainty ---------------------------------------------------------------

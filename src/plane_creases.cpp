@@ -13,6 +13,9 @@ namespace pcl_mrf_planes {
 
 namespace {
 
+/// Noise that the points of a border may have about the line, in rms distances.
+constexpr double NOISE_WIDTH = 3.0;
+
 using Pair = std::pair<std::size_t, std::size_t>;
 
 /// Points on either side of the border of two regions.
@@ -109,10 +112,12 @@ void addCreases(const std::vector<PlaneRegion>& regions, const Pair& pair,
   if (std::min(crease.angle, M_PI - crease.angle) < parameters.min_angle ||
       !intersectPlanes(a.plane, b.plane, border.front(), origin, direction))
     return;
+  const double tolerance =
+      std::max(parameters.tolerance, NOISE_WIDTH * std::max(a.rms, b.rms));
   std::vector<double> places;
   for (const Eigen::Vector3d& p : border) {
     const double place = direction.dot(p - origin);
-    if ((p - origin - place * direction).norm() <= parameters.tolerance)
+    if ((p - origin - place * direction).norm() <= tolerance)
       places.push_back(place);
   }
   // Of a convex edge each face lies behind the other one's plane.

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t FEWEST_POINTS = 4;
 /// Spread of points across the narrow side of a plane, over that along its normal, that
 /// makes it a plane.
-constexpr double NARROWEST = 4.0;
+constexpr double NARROWEST = 2.0;
 /// The same over the long side: less is a line.
 constexpr double THINNEST = 1e-3;
 /// Least noise at 1 m, growing with distance: what float coordinates leave.
@@ -84,7 +84,7 @@ private:
   {
     const auto n = static_cast<double>(region.indices.size());
     out.n = n;
-    out.centroid = region.centroid;
+    out.centroid = out.result.centroid = region.centroid;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(region.covariance);
     const Eigen::Vector3d& values = axes.eigenvalues();
     out.result.basis = axes.eigenvectors().rightCols<2>();
@@ -228,6 +228,7 @@ PlaneUncertainty finish(const Evidence& evidence, double pooled)
   if (!out.valid) {
     const double infinite = std::numeric_limits<double>::infinity();
     out.minimal = Eigen::Vector3d::Constant(infinite).asDiagonal();
+    out.at_centroid = out.minimal;
     out.covariance = Eigen::Vector4d::Constant(infinite).asDiagonal();
     return out;
   }
@@ -235,15 +236,14 @@ PlaneUncertainty finish(const Evidence& evidence, double pooled)
   const Eigen::Vector2d centroid = out.basis.transpose() * evidence.centroid;
   const Eigen::Vector3d inverse(1.0 / evidence.spread(0, 0),
                                 1.0 / evidence.spread(1, 1), 1.0 / evidence.n);
-  const Eigen::Matrix3d at_centroid =
-      out.points_per_independent *
-      (inverse.asDiagonal() * evidence.noise * inverse.asDiagonal());
-  const Eigen::Matrix3d l = toOrigin(centroid);
-  const Eigen::Matrix<double, 4, 3> j = jacobian(out.basis);
-  out.minimal = l * at_centroid * l.transpose();
-  out.covariance = j * out.minimal * j.transpose();
+  out.at_centroid = out.points_per_independent *
+                    (inverse.asDiagonal() * evidence.noise * inverse.asDiagonal());
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   bias.head<2>() = biasOf(evidence, centroid);
+  const Eigen::Matrix3d l = toOrigin(centroid);
+  const Eigen::Matrix<double, 4, 3> j = jacobian(out.basis);
+  out.minimal = l * out.at_centroid * l.transpose();
+  out.covariance = j * out.minimal * j.transpose();
   out.bias = j * (l * bias);
   return out;
 }
@@ -267,8 +267,8 @@ double PlaneUncertainty::squaredDistance(const Plane& other) const
   const double sign = mine.normal.dot(other.normal) < 0.0 ? -1.0 : 1.0;
   Eigen::Vector3d error;
   error.head<2>() = basis.transpose() * (sign * other.normal - mine.normal);
-  error[2] = sign * other.d - mine.d;
-  return error.dot(minimal.ldlt().solve(error));
+  error[2] = sign * other.distance(centroid) - mine.distance(centroid);
+  return error.dot(at_centroid.ldlt().solve(error));
 }
 
 UncertaintyNoise UncertaintyNoise::of(const Parameters& parameters)
@@ -305,6 +305,7 @@ PlaneUncertainty inCloudFrame(const PlaneUncertainty& uncertainty,
   out.plane.normal = pose.rotation * uncertainty.plane.normal;
   out.plane.d = uncertainty.plane.d - out.plane.normal.dot(pose.origin);
   out.basis = pose.rotation * uncertainty.basis;
+  out.centroid = pose.rotation * uncertainty.centroid + pose.origin;
   Eigen::Matrix4d move = Eigen::Matrix4d::Identity();
   move.topLeftCorner<3, 3>() = pose.rotation;
   move.row(3).head<3>() = -(pose.rotation.transpose() * pose.origin).transpose();

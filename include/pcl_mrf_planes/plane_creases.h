@@ -30,10 +30,12 @@ struct PlaneCrease {
 /** \brief What counts as a crease. */
 struct CreaseParameters {
   double min_angle = 0.17; ///< between the normals, radians, 0 to pi / 2
-  double tolerance = 0.03; ///< of the border's points to the line, metres, > 0
-  int reach = 4;           ///< points of no plane that may lie between, >= 0
-  int min_points = 8;      ///< of the border on the line, >= 1
-  double max_gap = 0.1;    ///< where the border may leave the line, metres, > 0
+  /// Of the border's points to the line, metres, > 0; three times the rms distance of the
+  /// planes' points where that is more.
+  double tolerance = 0.03;
+  int reach = 4;        ///< points of no plane that may lie between, >= 0
+  int min_points = 8;   ///< of the border on the line, >= 1
+  double max_gap = 0.1; ///< where the border may leave the line, metres, > 0
 
   /** \brief An empty string, or what is wrong and what to choose. */
   std::string validate() const;

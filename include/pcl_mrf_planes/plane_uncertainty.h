@@ -16,16 +16,20 @@ namespace pcl_mrf_planes {
 
 /** \brief How far the parameters of a plane may be off, for a filter or a pose graph.
  *
- * To first order about the least-squares plane: an error turns the normal to
- * n + alpha t1 + beta t2 and moves the offset by delta. First order is too little for a
- * plane that is narrower than six times its noise: it says less than there is.
+ * An error turns the normal to n + alpha t1 + beta t2 and moves the plane by gamma at the
+ * centroid of its points, or the offset d by delta, which is the same to first order: large
+ * turns about a far origin are best told from the centroid.
  */
 struct PlaneUncertainty {
   /// False where the points do not determine a plane: fewer than four, on a line, or
-  /// spread less than four times their rms distance. The diagonals are infinite then.
+  /// spread less than twice their rms distance. The diagonals are infinite then.
   bool valid = false;
   Plane plane;                       ///< least-squares plane of the points
   Eigen::Matrix<double, 3, 2> basis; ///< unit tangents t1, t2
+  Eigen::Vector3d centroid; ///< of the points, metres; the plane goes through it
+  /// Covariance of (alpha, beta, gamma), gamma being the distance of the plane from the
+  /// centroid: rad^2, rad m, m^2. Large turns do least harm to this form.
+  Eigen::Matrix3d at_centroid;
   /// Covariance of (alpha, beta, delta): rad^2, rad m, m^2. The form for manifolds.
   Eigen::Matrix3d minimal;
   /// Covariance of (a, b, c, d), of rank 3: the length of (a, b, c) is known.

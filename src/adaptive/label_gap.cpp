@@ -19,7 +19,7 @@ namespace {
 
 constexpr int SIDE = CandidateBlocks::SIDE;
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
-constexpr int REACH = 2;            ///< of a label from its points, blocks
+constexpr int REACH = 1;            ///< of a label from its points, blocks
 constexpr float CUT = 3.0f;         ///< of the data cost over "no plane"'s
 constexpr double STEP_SHARE = 0.01; ///< of the range: a slope, not a step
 
@@ -43,13 +43,15 @@ std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& poin
                              const std::vector<std::uint16_t>& labels)
 {
   std::vector<int> regions(cells.sums.size(), -1);
-  for (int y = 0; y < points.height; ++y)
-    for (int x = 0; x < points.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * points.width + x);
-      int& region = regions[cells.at(x / CELL, y / CELL)];
-      if (labels[i] != 0 && region < 0)
-        region = labels[i] - 1;
-    }
+  const auto width = static_cast<std::size_t>(points.width);
+  for (int y = 0; y < points.height; ++y) {
+    const std::uint16_t* row = &labels[static_cast<std::size_t>(y) * width];
+    int* cell = &regions[cells.at(0, y / CELL)];
+    for (std::size_t x = 0; x < width; x += CELL, ++cell)
+      for (std::size_t k = x; k < std::min(x + CELL, width) && *cell < 0; ++k)
+        if (row[k] != 0)
+          *cell = row[k] - 1;
+  }
   return regions;
 }
 
