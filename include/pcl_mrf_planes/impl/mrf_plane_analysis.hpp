@@ -194,16 +194,20 @@ void MRFPlaneSegmentation<PointT>::projectOntoPlanes(PointCloud& output,
   bool done = false;
   analyse("projectOntoPlanes", [&] {
     output = *input_; // memory that the output has is used again
-    for (const pcl_mrf_planes::PlaneRegion& region : result_.regions)
+    for (const pcl_mrf_planes::PlaneRegion& region : result_.regions) {
+      // Axes of the cloud, origin at the sensor.
+      pcl_mrf_planes::Plane plane = region.plane;
+      plane.normal = pose_.rotation * region.plane.normal;
       for (const int index : region.indices) {
-        const auto i = static_cast<std::size_t>(index);
-        const Eigen::Vector3d p = pcl_mrf_planes::projectPoint(
-            {points_.x[i], points_.y[i], points_.z[i]}, region.plane, way);
-        const Eigen::Vector3d q = pose_.rotation * p + pose_.origin;
-        output[i].x = static_cast<float>(q.x());
-        output[i].y = static_cast<float>(q.y());
-        output[i].z = static_cast<float>(q.z());
+        PointT& point = output[static_cast<std::size_t>(index)];
+        const Eigen::Vector3d p(point.x, point.y, point.z);
+        const Eigen::Vector3d q =
+            pcl_mrf_planes::projectPoint(p - pose_.origin, plane, way) + pose_.origin;
+        point.x = static_cast<float>(q.x());
+        point.y = static_cast<float>(q.y());
+        point.z = static_cast<float>(q.z());
       }
+    }
     done = true;
   });
   if (!done)
