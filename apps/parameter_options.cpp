@@ -34,8 +34,8 @@ Enum parseName(const std::string& option, const std::string& text,
                    join(words(names)));
 }
 
-const Names<Profile> PROFILES = {{"default", Profile::DEFAULT},
-                                 {"paper", Profile::PAPER}};
+const Names<Profile> PROFILES = {
+    {"default", Profile::DEFAULT}, {"fast", Profile::FAST}, {"paper", Profile::PAPER}};
 const Names<PlaneFit> FITS = {{"algebraic", PlaneFit::ALGEBRAIC},
                               {"geometric", PlaneFit::GEOMETRIC}};
 const Names<DepthMeasure> DEPTHS = {{"auto", DepthMeasure::AUTO},
@@ -146,6 +146,8 @@ std::vector<ParameterOption> adaptiveOptions()
 {
   using A = AdaptiveParameters;
   return {
+      integer("sampling", &A::sampling, "STEP",
+              "every so many-th point and row is segmented, the others follow them"),
       integer("levels", &A::levels, "COUNT", "tile sizes, each twice the one before"),
       integer("smallest-level", &A::smallest_level, "COUNT",
               "tile sizes that are left out, from 4 points on"),
@@ -199,8 +201,8 @@ std::vector<ParameterOption> adaptiveOptions()
       real("fan-gap", &A::fan_gap, "SIGMAS", "step across a smooth border"),
       real("bend-angle", &A::bend_angle, "DEGREES",
            "turn of the normal that makes a region curved, if nothing else is in it"),
-      integer("support-reach", &A::support_reach, "8 POINTS",
-              "how far from its tiles a plane competes"),
+      integer("support-reach", &A::support_reach, "4 POINTS",
+              "how far from its cells a plane competes"),
       real("none-cost", &A::none_cost, "SIGMAS",
            "cost of a point on no plane; larger labels more"),
       real("label-change", &A::label_change, "SIGMAS",

@@ -6,25 +6,24 @@
 
 namespace pcl_mrf_planes {
 
-namespace {
-
-/// End of the run that starts at i: four labels are compared at once.
-std::size_t endOfRun(const std::uint16_t* labels, std::size_t i, std::size_t row_end)
+std::size_t findOther(std::uint16_t label, const std::uint16_t* labels, std::size_t i,
+                      std::size_t end)
 {
   constexpr std::size_t AT_ONCE = 4;
   constexpr std::uint64_t FOUR_TIMES = 0x0001000100010001U;
-  const std::uint16_t label = labels[i];
   const std::uint64_t same = FOUR_TIMES * label;
   std::uint64_t four = 0;
-  for (; i + AT_ONCE <= row_end; i += AT_ONCE) {
+  for (; i + AT_ONCE <= end; i += AT_ONCE) {
     std::memcpy(&four, labels + i, sizeof(four));
     if (four != same)
       break;
   }
-  while (i < row_end && labels[i] == label)
+  while (i < end && labels[i] == label)
     ++i;
   return i;
 }
+
+namespace {
 
 /// Runs that touch get one root, the first of them in the image.
 class Roots {
@@ -63,7 +62,8 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
   out.rows.push_back(0);
   for (std::size_t row = 0; row < labels.size(); row += out.width) {
     for (std::size_t i = row; i < row + out.width;) {
-      const std::size_t end = endOfRun(labels.data(), i, row + out.width);
+      const std::size_t end =
+          findOther(labels[i], labels.data(), i + 1, row + out.width);
       if (labels[i] != background)
         out.runs.push_back({i, end, labels[i]});
       i = end;
@@ -78,14 +78,6 @@ void fillRun(const LabelRun& run, std::uint16_t label,
 {
   std::fill(labels.begin() + static_cast<std::ptrdiff_t>(run.begin),
             labels.begin() + static_cast<std::ptrdiff_t>(run.end), label);
-}
-
-void renumber(const LabelRuns& image, const std::vector<std::uint16_t>& id,
-              std::vector<std::uint16_t>& labels)
-{
-  for (const LabelRun& run : image.runs)
-    if (id[run.label] != run.label)
-      fillRun(run, id[run.label], labels);
 }
 
 RunParts connectRuns(const LabelRuns& image)

@@ -22,6 +22,11 @@ struct LabelRuns {
   std::vector<std::size_t> rows; ///< first run of each row, and the end of the last row
 };
 
+/// The first point from i on whose label is another one, or end. Four labels are compared at
+/// once.
+std::size_t findOther(std::uint16_t label, const std::uint16_t* labels, std::size_t i,
+                      std::size_t end);
+
 /// Runs of a label image. \param[in] background label that belongs to no run
 /// O(points)
 LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
@@ -30,10 +35,6 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
 /// Writes one label over all points of a run.
 void fillRun(const LabelRun& run, std::uint16_t label,
              std::vector<std::uint16_t>& labels);
-
-/// Gives every label its new number, id[label]. O(points whose label changes)
-void renumber(const LabelRuns& image, const std::vector<std::uint16_t>& id,
-              std::vector<std::uint16_t>& labels);
 
 /// 4-connected parts of a label image, in the order of their first points.
 struct RunParts {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/organized_points.h>
 
+#include "organized_points_kernel.h"
+
+#include <algorithm>
+#include <cstring>
+
 namespace pcl_mrf_planes {
 
 void OrganizedPoints::resize(int new_width, int new_height)
@@ -13,6 +18,25 @@ void OrganizedPoints::resize(int new_width, int new_height)
   y.assign(count, 0.0f);
   z.assign(count, 0.0f);
   valid.assign(count, 0);
+}
+
+void OrganizedPoints::load(int new_width, int new_height, const float* first,
+                           std::size_t stride)
+{
+  width = new_width;
+  height = new_height;
+  const std::size_t count =
+      static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height);
+  x.resize(count);
+  y.resize(count);
+  z.resize(count);
+  valid.resize(count);
+  std::size_t i =
+      loadPoints(first, stride, count, {x.data(), y.data(), z.data(), valid.data()});
+  for (; i < count; ++i) {
+    const float* point = first + i * stride;
+    set(i, point[0], point[1], point[2]);
+  }
 }
 
 const float* OrganizedPoints::depthRow(int row, std::vector<float>& storage) const
@@ -32,21 +56,36 @@ void OrganizedPoints::resolveDepthMeasure(DepthMeasure wanted)
   depth_measure = wanted;
   if (wanted != DepthMeasure::AUTO)
     return;
-  std::size_t points = 0;
-  std::size_t behind = 0;
-  for (std::size_t i = 0; i < valid.size(); ++i) {
-    points += valid[i];
-    behind += valid[i] & static_cast<std::uint8_t>(z[i] <= 0.0f);
-  }
+  // Invalid points have z = 0, too.
+  std::uint32_t not_in_front = 0; // fewer than 2^31 points
+  for (const float depth : z)
+    not_in_front += depth <= 0.0f ? 1U : 0U;
+  const std::size_t points = countValid();
+  const std::size_t behind = not_in_front - (valid.size() - points);
   depth_measure =
       behind * 100 > points ? DepthMeasure::RANGE : DepthMeasure::OPTICAL_AXIS;
 }
 
 std::size_t OrganizedPoints::countValid() const
 {
+  // Eight counters of a byte in one word, added up before one of them can overflow.
+  constexpr std::size_t WORD = 8;
+  constexpr std::size_t ROUND = 255 * WORD;
   std::size_t points = 0;
-  for (const std::uint8_t is_valid : valid)
-    points += is_valid;
+  std::size_t i = 0;
+  while (i + WORD <= valid.size()) {
+    std::uint64_t counters = 0;
+    const std::size_t end = std::min(valid.size(), i + ROUND);
+    for (; i + WORD <= end; i += WORD) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, &valid[i], sizeof(word));
+      counters += word;
+    }
+    for (; counters != 0; counters >>= 8U)
+      points += counters & 255U;
+  }
+  for (; i < valid.size(); ++i)
+    points += valid[i];
   return points;
 }
 

@@ -34,6 +34,7 @@ private:
 void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
 {
   constexpr double SMALLEST = 1e-6;
+  range.check("sampling", p.sampling, 1, 8);
   range.check("levels", p.levels, 2, 8);
   range.check("smallest_level", p.smallest_level, 0, p.levels - 1);
   range.check("tile_tolerance", p.tile_tolerance, SMALLEST, LARGEST);
@@ -77,6 +78,13 @@ Parameters Parameters::fromProfile(Profile profile)
 {
   Parameters parameters;
   parameters.method = profile == Profile::PAPER ? Method::PAPER : Method::ADAPTIVE;
+  if (profile == Profile::FAST) {
+    AdaptiveParameters& adaptive = parameters.adaptive;
+    adaptive.sampling = 2;
+    adaptive.levels = 3; // as large in the image as the three first of all points
+    adaptive.min_points = 30;
+    adaptive.min_evidence = 200.0;
+  }
   return parameters;
 }
 

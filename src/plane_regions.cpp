@@ -4,8 +4,8 @@
 #include <pcl_mrf_planes/scatter_matrix.h>
 
 #include "adaptive/tile_sums_kernel.h"
-#include "label_runs.h"
 #include "region_area.h"
+#include "region_gathering.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -102,12 +102,20 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
 {
   const LabelRuns image =
       findRuns(labelsOfValid(points, labels), points.width, NO_PLANE);
-  const std::vector<std::size_t> counts = countPoints(image, planes.size());
-  const std::vector<double> areas = meshAreas(points, planes, image);
   std::vector<ScatterMatrix> scatter(planes.size());
   for (const LabelRun& run : image.runs)
     scatter[run.label] += sumRun(points, run);
+  return gatherRegions(points, planes, image, scatter, min_points, min_area);
+}
 
+std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
+                                       const std::vector<Plane>& planes,
+                                       const LabelRuns& image,
+                                       const std::vector<ScatterMatrix>& scatter,
+                                       int min_points, double min_area)
+{
+  const std::vector<std::size_t> counts = countPoints(image, planes.size());
+  const std::vector<double> areas = meshAreas(points, planes, image);
   std::vector<PlaneRegion> regions;
   for (std::size_t l = 0; l < planes.size(); ++l)
     if (counts[l] > 0 && areas[l] >= min_area &&
@@ -118,6 +126,17 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
       regions.begin(), regions.end(),
       [](const PlaneRegion& p, const PlaneRegion& q) { return rank(p) < rank(q); });
   return regions;
+}
+
+void paintRegions(const LabelRuns& image, const std::vector<PlaneRegion>& regions,
+                  std::size_t planes, std::vector<std::uint16_t>& labels)
+{
+  std::vector<std::uint16_t> number(planes, 0);
+  for (std::size_t k = 0; k < regions.size(); ++k)
+    number[static_cast<std::size_t>(regions[k].label)] =
+        static_cast<std::uint16_t>(k + 1);
+  for (const LabelRun& run : image.runs)
+    fillRun(run, number[run.label], labels);
 }
 
 std::vector<std::uint16_t> regionLabels(const OrganizedPoints& points,

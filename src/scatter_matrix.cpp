@@ -22,21 +22,6 @@ void setErrors(double squared_sum, double n, PlaneFitResult& result)
 
 } // namespace
 
-ScatterMatrix& ScatterMatrix::operator+=(const ScatterMatrix& other)
-{
-  n += other.n;
-  x += other.x;
-  y += other.y;
-  z += other.z;
-  xx += other.xx;
-  xy += other.xy;
-  xz += other.xz;
-  yy += other.yy;
-  yz += other.yz;
-  zz += other.zz;
-  return *this;
-}
-
 Eigen::Matrix4d ScatterMatrix::matrix() const
 {
   Eigen::Matrix4d m;

@@ -6,6 +6,7 @@
 #include "field_kernel.h"
 
 #include <pcl_mrf_planes/belief_propagation.h>
+#include <pcl_mrf_planes/plane_segmentation.h>
 #include <pcl_mrf_planes/row_propagation.h>
 
 #include <gtest/gtest.h>
@@ -102,6 +103,54 @@ TEST(InstructionSetTest, FieldRowsAreTheSameBitsAndStayInTheirRow)
           << "other costs on " << name;
       EXPECT_EQ(edgeWeights(30000.0f, points, start, count), weights)
           << "other weights on " << name;
+    });
+  }
+}
+
+/// Points in no order, some of them not measured.
+std::vector<float> scattered(std::size_t count)
+{
+  scenes::Random random(6);
+  std::vector<float> numbers;
+  for (std::size_t i = 0; i < 4 * count; ++i)
+    numbers.push_back(random.chance(0.05) ? std::numeric_limits<float>::quiet_NaN()
+                                          : static_cast<float>(random.uniform(0.5, 2)));
+  return numbers;
+}
+
+TEST(InstructionSetTest, PointsAreReadTheSame)
+{
+  const std::vector<float> numbers = scattered(31 * 7);
+  OrganizedPoints expected;
+  expected.load(31, 7, numbers.data(), 4);
+  forEachInstructionSet([&](const char* name) {
+    OrganizedPoints points;
+    points.load(31, 7, numbers.data(), 4);
+    EXPECT_EQ(points.x, expected.x) << name;
+    EXPECT_EQ(points.y, expected.y) << name;
+    EXPECT_EQ(points.z, expected.z) << name;
+    EXPECT_EQ(points.valid, expected.valid) << name;
+  });
+}
+
+TEST(InstructionSetTest, TheWholeSegmentationGivesTheSameBits)
+{
+  const OrganizedPoints points = reference::toPoints(
+      reference::takePicture("room", 321, 243, 4, scenes::SensorNoise::kinect()));
+  for (const Profile profile : {Profile::DEFAULT, Profile::FAST, Profile::PAPER}) {
+    const Parameters parameters = Parameters::fromProfile(profile);
+    const PlaneSegmentation expected = segmentPlanes(points, parameters);
+    EXPECT_FALSE(expected.regions.empty());
+    forEachInstructionSet([&](const char* name) {
+      const PlaneSegmentation result = segmentPlanes(points, parameters);
+      EXPECT_EQ(result.labels, expected.labels) << "other labels on " << name;
+      ASSERT_EQ(result.regions.size(), expected.regions.size()) << name;
+      for (std::size_t k = 0; k < result.regions.size(); ++k) {
+        const Plane& plane = result.regions[k].plane;
+        EXPECT_EQ(plane.normal, expected.regions[k].plane.normal) << name;
+        EXPECT_EQ(plane.d, expected.regions[k].plane.d) << name;
+        EXPECT_EQ(result.regions[k].rms, expected.regions[k].rms) << name;
+      }
     });
   }
 }

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace pcl_mrf_planes {
 namespace {
@@ -36,6 +38,51 @@ TEST(OrganizedPointsTest, WhatIsNotFiniteOrAbsurdlyFarIsInvalid)
   points.resize(5, 4);
   EXPECT_EQ(points.size(), 20U);
   EXPECT_EQ(points.countValid(), 0U) << "another size must forget the points";
+}
+
+TEST(OrganizedPointsTest, LoadedPointsAreThoseSetOneByOne)
+{
+  scenes::Random random(5);
+  constexpr float BAD[] = {std::numeric_limits<float>::quiet_NaN(),
+                           std::numeric_limits<float>::infinity(), -2e6f, 1e30f};
+  for (const std::size_t stride : {3U, 4U, 5U, 8U, 12U})
+    for (const int width : {1, 2, 3, 4, 5, 7, 8, 33}) {
+      const int height = 3;
+      const auto count = static_cast<std::size_t>(width * height);
+      // Not a number more than the last point has: reading on would be noticed.
+      std::vector<float> numbers((count - 1) * stride + 3, BAD[0]);
+      OrganizedPoints expected;
+      expected.resize(width, height);
+      for (std::size_t i = 0; i < count; ++i) {
+        float* p = &numbers[i * stride];
+        for (int axis = 0; axis < 3; ++axis)
+          p[axis] = random.chance(0.1) ? BAD[random.integer(0, 3)]
+                                       : static_cast<float>(random.uniform(-1e6, 1e6));
+        expected.set(i, p[0], p[1], p[2]);
+      }
+      OrganizedPoints points;
+      points.resize(50, 50); // whatever was there before
+      points.load(width, height, numbers.data(), stride);
+      EXPECT_EQ(points.width, width);
+      EXPECT_EQ(points.height, height);
+      EXPECT_EQ(points.x, expected.x) << count << " points, stride " << stride;
+      EXPECT_EQ(points.y, expected.y) << count << " points, stride " << stride;
+      EXPECT_EQ(points.z, expected.z) << count << " points, stride " << stride;
+      EXPECT_EQ(points.valid, expected.valid) << count << " points, stride " << stride;
+    }
+}
+
+TEST(OrganizedPointsTest, ValidPointsAreCounted)
+{
+  scenes::Random random(6);
+  for (const int count : {1, 7, 8, 9, 2039, 2040, 2041, 5000})
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const OrganizedPoints points = reference::randomPoints(random, count, 1, share);
+      std::size_t expected = 0;
+      for (const int is_valid : points.valid)
+        expected += is_valid != 0 ? 1U : 0U;
+      EXPECT_EQ(points.countValid(), expected) << count << " points";
+    }
 }
 
 TEST(OrganizedPointsTest, DepthIsZOrRange)

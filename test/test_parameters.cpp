@@ -148,6 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         real("label_change", &AdaptiveParameters::label_change, 0, 1e3),
         real("step_sigmas", &AdaptiveParameters::step_sigmas, 1e-6, 1e6),
         real("min_weight", &AdaptiveParameters::min_weight, 0, 1),
+        whole("sampling", &AdaptiveParameters::sampling, 1, 8),
         whole("passes", &AdaptiveParameters::passes, 0, 100000),
         whole("rounds", &AdaptiveParameters::rounds, 1, 10)));
 
@@ -190,8 +191,10 @@ TEST(ParametersTest, ProfilesNameTheMethodAndShareTheOtherValues)
   EXPECT_EQ(Parameters().method, Method::ADAPTIVE) << "the default in the class";
   EXPECT_EQ(Parameters::fromProfile(Profile::DEFAULT).method, Method::ADAPTIVE);
   EXPECT_EQ(Parameters::fromProfile(Profile::PAPER).method, Method::PAPER);
-  EXPECT_EQ(Parameters::fromProfile(Profile::DEFAULT).validate(), "")
-      << "the default values must be valid";
+  EXPECT_EQ(Parameters::fromProfile(Profile::FAST).method, Method::ADAPTIVE);
+  for (const Profile profile : {Profile::DEFAULT, Profile::FAST, Profile::PAPER})
+    EXPECT_EQ(Parameters::fromProfile(profile).validate(), "")
+        << "the values of a profile must be valid";
 }
 
 TEST(ParametersTest, ThreadsHaveAnUpperEnd)

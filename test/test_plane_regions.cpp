@@ -2,6 +2,8 @@
 #include "reference/inputs.h"
 #include "reference/plane_fit.h"
 
+#include "region_gathering.h"
+
 #include <pcl_mrf_planes/plane_regions.h>
 
 #include <gtest/gtest.h>
@@ -60,6 +62,43 @@ TEST(PlaneRegionsTest, NoiseHardlyChangesTheArea)
       gatherRegions(reference::toPoints(noisy), {plane}, labels, 0)[0].area;
   EXPECT_NEAR(found, expected, 0.03 * expected)
       << "2 cm of noise between points 2 mm apart must cancel";
+}
+
+TEST(PlaneRegionsTest, RunsAndSumsThatAreKnownGiveTheSame)
+{
+  scenes::Random random(8);
+  const OrganizedPoints points = reference::randomPoints(random, 41, 23, 0.9);
+  std::vector<Plane> planes;
+  for (int i = 0; i < 5; ++i)
+    planes.push_back(reference::randomPlane(random));
+  std::vector<std::uint16_t> labels;
+  std::vector<ScatterMatrix> sums(planes.size());
+  std::uint16_t label = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (random.chance(0.3))
+      label = static_cast<std::uint16_t>(random.integer(0, 5));
+    const bool on_plane = points.valid[i] != 0 && label < planes.size();
+    labels.push_back(on_plane ? label : NO_PLANE);
+    if (on_plane)
+      sums[label].add(points.x[i], points.y[i], points.z[i]);
+  }
+  const LabelRuns runs = findRuns(labels, points.width, NO_PLANE);
+  for (const int least : {0, 60, 100}) {
+    const auto expected = gatherRegions(points, planes, labels, least);
+    const auto regions = gatherRegions(points, planes, runs, sums, least, 0.0);
+    ASSERT_EQ(regions.size(), expected.size());
+    for (std::size_t k = 0; k < regions.size(); ++k) {
+      EXPECT_EQ(regions[k].label, expected[k].label);
+      EXPECT_EQ(regions[k].indices, expected[k].indices);
+      EXPECT_EQ(regions[k].area, expected[k].area);
+      EXPECT_NEAR(regions[k].rms, expected[k].rms, 1e-9);
+      EXPECT_LT((regions[k].centroid - expected[k].centroid).norm(), 1e-9);
+      EXPECT_LT((regions[k].covariance - expected[k].covariance).norm(), 1e-9);
+    }
+    std::vector<std::uint16_t> image(points.size(), 0);
+    paintRegions(runs, regions, planes.size(), image);
+    EXPECT_EQ(image, regionLabels(points, expected)) << "least " << least;
+  }
 }
 
 TEST(PlaneRegionsTest, StatisticsAreThoseOfThePoints)

@@ -40,9 +40,11 @@ const std::vector<Ablation>& ablations()
       {"no smoothness", {{"label-change", "0"}}},
       {"smoothness blind to edges", {{"min-weight", "1"}}},
       {"no passes", {{"passes", "0"}}},
-      {"1 pass", {{"passes", "1"}}},
+      {"2 passes", {{"passes", "2"}}},
       {"10 passes", {{"passes", "10"}}},
-      {"1 round", {{"rounds", "1"}}},
+      {"cells are not labelled first", {{"rounds", "1"}}},
+      {"cells are labelled twice", {{"rounds", "3"}}},
+      {"every second point and row", {{"sampling", "2"}}},
       // What is no plane
       {"curved surfaces stay", {{"fan-parts", "0"}, {"bend-angle", "360"}}},
       {"no evidence needed", {{"min-evidence", "0"}}}};
@@ -68,7 +70,8 @@ std::vector<std::string> otherValues(const apps::ParameterOption& option)
   if (!apps::parseNumber(text, value) || value == 0.0)
     return values;
   const bool whole = option.argument == "COUNT" || option.argument == "POINTS" ||
-                     option.argument == "TILES" || option.argument == "8 POINTS";
+                     option.argument == "TILES" || option.argument == "4 POINTS" ||
+                     option.argument == "STEP";
   std::set<std::string> tried = {text};
   for (const double factor : {0.25, 0.5, 0.8, 1.25, 2.0, 4.0}) {
     const std::string other =

@@ -10,6 +10,10 @@ namespace pcl_mrf_planes {
  * from its own.
  */
 struct AdaptiveParameters {
+  /// Every so many-th point of every so many-th row is segmented, the others take labels
+  /// from around them; 1 (all) to 8. min_points and min_evidence count sampled points.
+  int sampling = 1;
+
   /// \name Tiles of several sizes
   ///@{
   int levels = 4;              ///< tile sides 4, 8, 16, ... points; 2 to 8
@@ -60,7 +64,7 @@ struct AdaptiveParameters {
   /// Planes above this share of the points are no facets; three times as large ones may be
   /// if they bend themselves. 0 to 1
   double fan_share = 0.003;
-  double fan_border = 0.4; ///< common border over the side of the smaller part, >= 0
+  double fan_border = 0.5; ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;    ///< step across a smooth border, sigmas, >= 0
   /// Turn of the normal, by a quadric, that makes a region curved, degrees, times the root
   /// of the share of the variance that the quadric explains; 720: off
@@ -69,14 +73,13 @@ struct AdaptiveParameters {
 
   /// \name Random field
   ///@{
-  int support_reach = 2;  ///< a plane competes so far from its tiles, 8 points, and in
-                          ///< rounds after the first 8 points from its labels; 1 to 512
+  int support_reach = 1; ///< a plane competes so far from its cells, 4 points; 1 to 512
   double none_cost = 3.0; ///< data cost of "no plane", sigmas, > 0
   double label_change =
       1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
   double step_sigmas = 6.0; ///< depth step over which that price falls, sigmas, > 0
   double min_weight = 0.15; ///< share of the price that is left across a step, 0 to 1
-  int passes = 2; ///< of the last round, down the image and up again; those before make
+  int passes = 1; ///< of the last round, down the image and up again; those before make
                   ///< one at most; 0 to 100000
   int rounds = 2; ///< of labelling and refitting, 1 to 10
   ///@}

@@ -337,6 +337,7 @@ private:
   SensorPose statedPose() const;
   void findPose();
   void readPoints();
+  void copyPoints(int width, int height);
   void limitToIndices();
   void fillModels(std::vector<ModelCoefficients>& model_coefficients,
                   std::vector<PointIndices>& inlier_indices) const;

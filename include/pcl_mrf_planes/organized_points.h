@@ -82,6 +82,10 @@ struct OrganizedPoints {
     }
   }
 
+  /** \brief The same as fill() for points in memory, x, y and z in a row, \a stride
+   * numbers from one to the next (at least 3). O(points) */
+  void load(int new_width, int new_height, const float* first, std::size_t stride);
+
   /** \brief Make the point at \a index invalid. */
   void clear(std::size_t index)
   {

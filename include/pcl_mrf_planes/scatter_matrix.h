@@ -36,7 +36,20 @@ struct ScatterMatrix {
   }
 
   /** \brief Pool the sums of two disjoint sets of points. */
-  ScatterMatrix& operator+=(const ScatterMatrix& other);
+  ScatterMatrix& operator+=(const ScatterMatrix& other)
+  {
+    n += other.n;
+    x += other.x;
+    y += other.y;
+    z += other.z;
+    xx += other.xx;
+    xy += other.xy;
+    xz += other.xz;
+    yy += other.yy;
+    yz += other.yz;
+    zz += other.zz;
+    return *this;
+  }
 
   /** \brief The symmetric 4x4 matrix of equation (4). */
   Eigen::Matrix4d matrix() const;

@@ -2,11 +2,14 @@
 #include <pcl_mrf_planes/plane_segmentation.h>
 
 #include "adaptive/candidate_field.h"
+#include "adaptive/cell_labelling.h"
 #include "adaptive/curved_surfaces.h"
 #include "adaptive/noise_estimation.h"
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_refinement.h"
+#include "adaptive/sampled_points.h"
 #include "adaptive/tile_pyramid.h"
+#include "region_gathering.h"
 #include "stage_timer.h"
 
 #include <algorithm>
@@ -35,23 +38,35 @@ double pointsPerIndependentOne(const NoiseLaw& noise)
   return correlation * correlation;
 }
 
-/// Labels from 1 with 0 for none, as label planes from 0 with NO_PLANE for none.
-std::vector<std::uint16_t> planeIndices(std::vector<std::uint16_t> labels)
+/// Runs of labels from 1, with 0 for none, as those of label planes from 0.
+LabelRuns planeRuns(const LabelRuns& image)
 {
-  for (std::uint16_t& label : labels)
-    label = label == 0 ? NO_PLANE : static_cast<std::uint16_t>(label - 1);
-  return labels;
+  LabelRuns out;
+  out.width = image.width;
+  out.runs.reserve(image.runs.size());
+  out.rows.reserve(image.rows.size());
+  out.rows.push_back(0);
+  for (std::size_t row = 0; row + 1 < image.rows.size(); ++row) {
+    for (std::size_t k = image.rows[row]; k < image.rows[row + 1]; ++k)
+      if (const LabelRun& run = image.runs[k]; run.label != 0)
+        out.runs.push_back(
+            {run.begin, run.end, static_cast<std::uint16_t>(run.label - 1)});
+    out.rows.push_back(out.runs.size());
+  }
+  return out;
 }
 
-} // namespace
+/// What the stages find in points, all of them or samples.
+struct Labelling {
+  NoiseLaw noise;
+  FittedRegions fitted;
+  LabelledPoints image;
+};
 
-PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
-                                    const Parameters& all_parameters)
+Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_parameters,
+                      SegmentationReport& report, StageTimer& timer)
 {
   AdaptiveParameters parameters = all_parameters.adaptive;
-  PlaneSegmentation result;
-  SegmentationReport& report = result.report;
-  StageTimer timer(report.stage_ms);
 
   // A. Planar surface detection, with tiles as large as the surfaces allow
   std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters);
@@ -77,29 +92,58 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
   report.planes_after_merging = regions.planes.size();
   timer.finish("merging");
 
-  // C and D. The random field and its MAP labels; then the planes fitted to them
-  std::vector<std::uint16_t> labels;
-  for (int round = 0; round < parameters.rounds; ++round) {
-    const bool last = round + 1 == parameters.rounds;
-    if (round > 0) // what has got labels is support by now
-      parameters.support_reach = std::min(parameters.support_reach, 1);
-    const CandidateField field =
-        buildField(points, regions, pyramid[0], noise, parameters);
-    timer.finish("field");
-    const int passes = last ? parameters.passes : std::min(parameters.passes, 1);
-    labels = propagateBeliefs(field, points, passes);
-    report.iterations += passes;
-    timer.finish("propagation");
-    regions = refineRegions(points, pyramid[0], noise, parameters, labels);
-    timer.finish("refinement");
-  }
-  dropDoubtfulPlanes(points, noise, parameters, regions, labels);
+  // C and D. The random field and its MAP labels, of the cells until their planes are good
+  // and then of the points; and the planes fitted to them
+  for (int round = 1; round < parameters.rounds; ++round)
+    regions = labelCells(regions, pyramid[0], noise, parameters);
+  timer.finish("cells");
+  const CandidateField field = buildField(points, regions, pyramid, noise, parameters);
+  timer.finish("field");
+  LabelledPoints image(propagateBeliefs(field, points, parameters.passes),
+                       points.width);
+  report.iterations += parameters.passes;
+  timer.finish("propagation");
+  FittedRegions fitted = refineRegions(points, pyramid[0], noise, parameters, image);
+  dropDoubtfulPlanes(points, noise, parameters, fitted, image);
   timer.finish("refinement");
+  return {noise, std::move(fitted), std::move(image)};
+}
 
-  const std::vector<Plane> planes(regions.planes.begin(), regions.planes.end());
-  result.regions = gatherRegions(points, planes, planeIndices(std::move(labels)),
-                                 all_parameters.min_inliers, all_parameters.min_area);
-  result.labels = regionLabels(points, result.regions);
+/// The same of every so many-th point, and the labels of the others from theirs.
+Labelling labelSampled(const OrganizedPoints& points, const Parameters& parameters,
+                       SegmentationReport& report, StageTimer& timer)
+{
+  const int every = parameters.adaptive.sampling;
+  const OrganizedPoints samples = samplePoints(points, every);
+  timer.finish("sampling");
+  Labelling found = labelPlanes(samples, parameters, report, timer);
+  found.image = LabelledPoints(spreadLabels(points, samples, found.image.labels, every,
+                                            found.fitted.planes, found.noise,
+                                            parameters.adaptive),
+                               points.width);
+  timer.finish("sampling");
+  return found;
+}
+
+} // namespace
+
+PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
+                                    const Parameters& parameters)
+{
+  PlaneSegmentation result;
+  SegmentationReport& report = result.report;
+  StageTimer timer(report.stage_ms);
+  Labelling found = parameters.adaptive.sampling > 1
+                        ? labelSampled(points, parameters, report, timer)
+                        : labelPlanes(points, parameters, report, timer);
+  const std::vector<Plane> planes(found.fitted.planes.begin(),
+                                  found.fitted.planes.end());
+  const LabelRuns runs = planeRuns(found.image.runs);
+  result.regions = gatherRegions(points, planes, runs,
+                                 {found.fitted.sums.begin(), found.fitted.sums.end()},
+                                 parameters.min_inliers, parameters.min_area);
+  result.labels = std::move(found.image.labels);
+  paintRegions(runs, result.regions, planes.size(), result.labels);
   timer.finish("regions");
   report.count(points, result.regions);
   return result;

@@ -2,8 +2,6 @@
 #include "adaptive/candidate_field.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
@@ -11,113 +9,57 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 constexpr int CELLS = CandidateBlocks::SIDE / CELL; // of a block, each way
-constexpr int MIXED = -2;
 
-/// Region of the cells of a rectangle, or MIXED; half open ranges.
-int regionOf(const TileRegions& regions, const TileLevel& cells, int c0, int c1, int r0,
-             int r1)
-{
-  const int first = regions.cell_region[cells.at(c0, r0)];
-  for (int r = r0; r < r1; ++r)
-    for (int c = c0; c < c1; ++c)
-      if (regions.cell_region[cells.at(c, r)] != first)
-        return MIXED;
-  return first;
-}
-
-/// Region of every block.
-std::vector<int> blockRegions(const TileRegions& regions, const TileLevel& cells,
-                              const CandidateBlocks& blocks)
-{
-  std::vector<int> region;
-  region.reserve(blocks.count.size());
-  for (int r = 0; r < blocks.rows; ++r)
-    for (int c = 0; c < blocks.columns; ++c)
-      region.push_back(regionOf(regions, cells, c * CELLS,
-                                std::min(cells.columns, (c + 1) * CELLS), r * CELLS,
-                                std::min(cells.rows, (r + 1) * CELLS)));
-  return region;
-}
-
-/// Region of every block that is all of one region as far as the reach, else MIXED: first
-/// along the rows, then along the columns.
-std::vector<int> uniformRegions(const std::vector<int>& region,
-                                const CandidateBlocks& blocks, int reach)
-{
-  std::vector<int> along(region.size());
-  std::vector<int> uniform(region.size());
-  for (int r = 0; r < blocks.rows; ++r)
-    for (int c = 0; c < blocks.columns; ++c) {
-      int all = region[blocks.at(c, r)];
-      for (int i = std::max(0, c - reach); i <= std::min(blocks.columns - 1, c + reach);
-           ++i)
-        all = region[blocks.at(i, r)] == all ? all : MIXED;
-      along[blocks.at(c, r)] = all;
-    }
-  for (int r = 0; r < blocks.rows; ++r)
-    for (int c = 0; c < blocks.columns; ++c) {
-      int all = along[blocks.at(c, r)];
-      for (int j = std::max(0, r - reach); j <= std::min(blocks.rows - 1, r + reach);
-           ++j)
-        all = along[blocks.at(c, j)] == all ? all : MIXED;
-      uniform[blocks.at(c, r)] = all;
-    }
-  return uniform;
-}
-
-/// The regions that a block's own cells belong to.
-struct BlockRegions {
-  static constexpr std::size_t MOST = CELLS * CELLS;
-  std::array<int, MOST> region;
-  std::size_t count = 0;
-
-  void add(int id)
-  {
-    for (std::size_t k = 0; k < count; ++k)
-      if (region[k] == id)
-        return;
-    region[count++] = id;
-  }
-};
-
-std::vector<BlockRegions> listRegions(const TileRegions& regions,
-                                      const TileLevel& cells,
-                                      const CandidateBlocks& blocks)
-{
-  std::vector<BlockRegions> lists(blocks.count.size());
-  for (int r = 0; r < cells.rows; ++r)
-    for (int c = 0; c < cells.columns; ++c)
-      if (const int id = regions.cell_region[cells.at(c, r)]; id >= 0)
-        lists[blocks.at(c / CELLS, r / CELLS)].add(id);
-  return lists;
-}
-
-/// Regions near a block with their distances in blocks, the nearest first.
-class Nearby {
+/// Finds the regions around a block.
+class Surroundings {
 public:
-  Nearby(const std::vector<BlockRegions>& lists, const CandidateBlocks& blocks,
-         int reach)
-  : lists_(lists)
-  , blocks_(blocks)
+  Surroundings(const TileRegions& regions, const TileLevel& cells, int reach)
+  : regions_(regions)
+  , cells_(cells)
   , reach_(reach)
   {}
 
-  const std::vector<std::pair<int, int>>& find(int column, int row)
+  /// Looks at the cells of a block and so many around it.
+  void look(int block_column, int block_row)
+  {
+    column_ = block_column * CELLS;
+    row_ = block_row * CELLS;
+    left_ = std::max(0, column_ - reach_);
+    right_ = std::min(cells_.columns, column_ + CELLS + reach_);
+    top_ = std::max(0, row_ - reach_);
+    bottom_ = std::min(cells_.rows, row_ + CELLS + reach_);
+  }
+
+  /// The one region of all cells, -1 for none; unless they differ.
+  bool isUniform(int& region) const
+  {
+    region = regions_.cell_region[cells_.at(column_, row_)];
+    int differ = 0;
+    for (int r = top_; r < bottom_; ++r)
+      for (int c = left_; c < right_; ++c)
+        differ |= regions_.cell_region[cells_.at(c, r)] ^ region;
+    return differ == 0;
+  }
+
+  /// Distances in cells and regions, the nearest first.
+  const std::vector<std::pair<int, int>>& regions()
   {
     found_.clear();
-    for (int r = std::max(0, row - reach_);
-         r <= std::min(blocks_.rows - 1, row + reach_); ++r)
-      for (int c = std::max(0, column - reach_);
-           c <= std::min(blocks_.columns - 1, column + reach_); ++c) {
-        const BlockRegions& list = lists_[blocks_.at(c, r)];
-        for (std::size_t k = 0; k < list.count; ++k)
-          note(list.region[k], std::max(std::abs(c - column), std::abs(r - row)));
-      }
+    for (int r = top_; r < bottom_; ++r)
+      for (int c = left_; c < right_; ++c)
+        if (const int id = regions_.cell_region[cells_.at(c, r)]; id >= 0)
+          note(id, std::max(distance(c - column_), distance(r - row_)));
     std::sort(found_.begin(), found_.end());
     return found_;
   }
 
 private:
+  /// From the cells of the block along one way, given the place past the first of them.
+  static int distance(int past_first)
+  {
+    return std::max(-past_first, past_first - (CELLS - 1));
+  }
+
   void note(int id, int distance)
   {
     for (auto& [d, region] : found_)
@@ -128,10 +70,12 @@ private:
     found_.emplace_back(distance, id);
   }
 
-  const std::vector<BlockRegions>& lists_;
-  const CandidateBlocks& blocks_;
+  const TileRegions& regions_;
+  const TileLevel& cells_;
   int reach_;
-  std::vector<std::pair<int, int>> found_; ///< distance, region
+  int column_ = 0, row_ = 0;                        ///< first cell of the block
+  int left_ = 0, right_ = 0, top_ = 0, bottom_ = 0; ///< cells around it, half open
+  std::vector<std::pair<int, int>> found_;
 };
 
 } // namespace
@@ -145,24 +89,23 @@ CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cell
   out.rows = (height + CandidateBlocks::SIDE - 1) / CandidateBlocks::SIDE;
   out.count.assign(out.at(0, out.rows), 1);
   out.labels.assign(out.count.size() * SLOTS, 0);
-  const std::vector<int> uniform =
-      uniformRegions(blockRegions(regions, cells, out), out, reach);
-  const std::vector<BlockRegions> lists = listRegions(regions, cells, out);
-  Nearby nearby(lists, out, reach);
   const auto add = [&](std::size_t block, int region) {
     out.labels[block * SLOTS + out.count[block]++] =
         static_cast<std::uint16_t>(region + 1);
   };
+  Surroundings around(regions, cells, reach);
   for (int r = 0; r < out.rows; ++r)
     for (int c = 0; c < out.columns; ++c) {
-      const std::size_t b = out.at(c, r);
-      if (uniform[b] >= 0)
-        add(b, uniform[b]);
-      if (uniform[b] != MIXED)
+      const std::size_t block = out.at(c, r);
+      around.look(c, r);
+      if (int region = -1; around.isUniform(region)) {
+        if (region >= 0)
+          add(block, region);
         continue;
-      for (const auto& [distance, region] : nearby.find(c, r))
-        if (out.count[b] < SLOTS)
-          add(b, region);
+      }
+      for (const auto& [distance, region] : around.regions())
+        if (out.count[block] < SLOTS)
+          add(block, region);
     }
   return out;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/candidate_field.h"
+#include "adaptive/label_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,35 +11,9 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 constexpr int SIDE = CandidateBlocks::SIDE;
+constexpr std::size_t BLOCK_LEVEL = 1; // tiles that are the blocks
+static_assert(SIDE == 2 * CELL, "tiles of the level above the cells are the blocks");
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
-
-/// Where the costs of a region's label differ from those of another.
-struct LabelScale {
-  float a, b, c, d;
-  double growth; ///< variance of the region over that of its points
-  double bend;   ///< squared deviation from flatness, m^2
-};
-
-LabelScale labelScale(const FittedPlane& plane, const NoiseLaw& noise,
-                      const AdaptiveParameters& parameters)
-{
-  const double growth = noise.growthOf(plane.n);
-  const double bend =
-      std::min(parameters.flatness * plane.extent, parameters.max_flatness);
-  return {
-      static_cast<float>(plane.normal.x()),     static_cast<float>(plane.normal.y()),
-      static_cast<float>(plane.normal.z()),     static_cast<float>(plane.d),
-      growth * growth * incidenceFactor(plane), bend * bend};
-}
-
-/// Sum of the squared distances of the points behind the ten sums, equation (3).
-double squaredDistances(const TileSums& s, const LabelScale& plane)
-{
-  const double a = plane.a, b = plane.b, c = plane.c, d = plane.d;
-  return a * (a * s.xx + 2 * (b * s.xy + c * s.xz + d * s.x)) +
-         b * (b * s.yy + 2 * (c * s.yz + d * s.y)) + c * (c * s.zz + 2 * d * s.z) +
-         d * d * s.n;
-}
 
 /// Eight numbers of an array, as one.
 BlockRow::Numbers gather(const std::int16_t* numbers)
@@ -85,10 +60,11 @@ struct BlockPlace {
 class FieldBuilder {
 public:
   FieldBuilder(const OrganizedPoints& points, const TileRegions& regions,
-               const TileLevel& cells, const NoiseLaw& noise,
+               const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                const AdaptiveParameters& parameters, CandidateField& field)
   : points_(points)
-  , cells_(cells)
+  , cells_(pyramid[0])
+  , block_sums_(pyramid[BLOCK_LEVEL].sums)
   , noise_(noise)
   , parameters_(parameters)
   , field_(field)
@@ -146,20 +122,13 @@ private:
   /// points save their distances less k times the cost of "no plane", at most
   /// sqrt(k) sqrt(Q) - k none where Q is the sum of squared distances in sigmas; they pay
   /// for a border of at least 4 sqrt(k). That is never worth it while
-  /// sqrt(Q) <= none + 4 change. Q follows from the ten sums of the cells.
+  /// sqrt(Q) <= none + 4 change. Q follows from the ten sums of the block.
   bool fitsAsAWhole(const BlockPlace& place) const
   {
     const LabelScale& plane = scales_[field_.blocks.labelsOf(place.block)[1] - 1U];
-    double squares = 0;
-    for (int r = place.row / CELL; r * CELL < place.row + place.rows; ++r)
-      for (int c = place.column / CELL; c * CELL < place.column + place.columns; ++c) {
-        const TileSums& sums = cells_.sums[cells_.at(c, r)];
-        if (sums.n < 1)
-          continue;
-        const double variance = plane.growth * (sums.noise / sums.n) + plane.bend;
-        squares += squaredDistances(sums, plane) / variance;
-      }
-    return squares <= mostSquares();
+    const TileSums& sums = block_sums_[place.block];
+    return squaredDistances(sums, plane) * sums.n <=
+           mostSquares() * (plane.growth * sums.noise + plane.bend * sums.n);
   }
 
   double mostSquares() const
@@ -320,7 +289,7 @@ private:
 
   void fillWeights(const BlockPlace& place, BlockWeights& out)
   {
-    const double range = rangeOf(place);
+    const double range = rangeOf(place.block);
     per_step_ = static_cast<float>(
         1.0 / (parameters_.step_sigmas * noise_.small(range) + STEP_SHARE * range));
     const auto width = static_cast<std::size_t>(field_.width);
@@ -340,12 +309,9 @@ private:
     }
   }
 
-  double rangeOf(const BlockPlace& place) const
+  double rangeOf(std::size_t block) const
   {
-    TileSums sums;
-    for (int r = place.row / CELL; r * CELL < place.row + place.rows; ++r)
-      for (int c = place.column / CELL; c * CELL < place.column + place.columns; ++c)
-        sums += cells_.sums[cells_.at(c, r)];
+    const TileSums& sums = block_sums_[block];
     return sums.n > 0 ? sums.centroid().norm() : 1.0;
   }
 
@@ -387,6 +353,7 @@ private:
 
   const OrganizedPoints& points_;
   const TileLevel& cells_;
+  const std::vector<TileSums>& block_sums_;
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
   CandidateField& field_;
@@ -405,16 +372,16 @@ private:
 } // namespace
 
 CandidateField buildField(const OrganizedPoints& points, const TileRegions& regions,
-                          const TileLevel& cells, const NoiseLaw& noise,
+                          const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters)
 {
   CandidateField field;
   field.width = points.width;
   field.height = points.height;
-  field.blocks = findCandidates(regions, cells, field.width, field.height,
+  field.blocks = findCandidates(regions, pyramid[0], field.width, field.height,
                                 parameters.support_reach);
   field.data.reserve(field.blocks.count.size() * static_cast<std::size_t>(SIDE));
-  FieldBuilder builder(points, regions, cells, noise, parameters, field);
+  FieldBuilder builder(points, regions, pyramid, noise, parameters, field);
   for (int row = 0; row < field.blocks.rows; ++row)
     for (int column = 0; column < field.blocks.columns; ++column)
       builder.add({field.blocks.at(column, row), column * SIDE, row * SIDE,

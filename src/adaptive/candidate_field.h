@@ -83,7 +83,7 @@ struct CandidateField {
 };
 
 CandidateField buildField(const OrganizedPoints& points, const TileRegions& regions,
-                          const TileLevel& cells, const NoiseLaw& noise,
+                          const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters);
 
 /// Min-sum loopy belief propagation; label per site, 0 = none.

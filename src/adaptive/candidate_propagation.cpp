@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <type_traits>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -89,13 +90,13 @@ public:
       const int y = downwards ? k : f_.height - 1 - k;
       const std::size_t band = static_cast<std::size_t>(y) / SIDE;
       for (std::size_t a = band_[band]; a < band_[band + 1]; ++a)
-        send(places_[a], a, static_cast<std::size_t>(y) % SIDE,
-             downwards ? BELOW : ABOVE);
+        sendFrom(a, static_cast<std::size_t>(y) % SIDE, downwards ? BELOW : ABOVE);
     }
   }
 
   /// Data costs plus all messages of a row of an active block.
-  void beliefs(std::size_t start, std::size_t count, Beliefs& total) const
+  template <class Count>
+  void beliefs(std::size_t start, Count count, Beliefs& total) const
   {
     std::size_t s = 0;
     do { // an active block has a label, as the compiler cannot know
@@ -167,7 +168,8 @@ private:
 
   /// Potts messages: what the sender knows but for what the receiver told it, less its
   /// least value, and never more than the price of a change.
-  void messages(const Beliefs& total, std::size_t count, std::size_t start, Side to,
+  template <class Count>
+  void messages(const Beliefs& total, Count count, std::size_t start, Side to,
                 Numbers weight, Beliefs& out) const
   {
     Numbers smallest = total[0] - received_[start].from[to];
@@ -180,9 +182,22 @@ private:
       out[s] = least(out[s] - smallest, weight);
   }
 
-  void send(const Place& place, std::size_t a, std::size_t row, Side next_row)
+  /// Few labels are the rule: their loops are unrolled.
+  void sendFrom(std::size_t a, std::size_t row, Side next_row)
   {
-    const std::size_t count = place.count;
+    const std::size_t count = places_[a].count;
+    if (count == 2)
+      send(a, row, next_row, std::integral_constant<std::size_t, 2>());
+    else if (count == 3)
+      send(a, row, next_row, std::integral_constant<std::size_t, 3>());
+    else
+      send(a, row, next_row, count);
+  }
+
+  template <class Count>
+  void send(std::size_t a, std::size_t row, Side next_row, Count count)
+  {
+    const Place& place = places_[a];
     const std::size_t start = place.first + row * count;
     const BlockWeights& weight = f_.weight[a];
     const Numbers right = weight.right[row].v;
@@ -196,7 +211,7 @@ private:
     beliefs(start, count, total);
     messages(total, count, start, RIGHT, right, rightward);
     messages(total, count, start, LEFT, left, leftward);
-    sendToRow(place, weight, row, next_row, total);
+    sendToRow(place, weight, row, next_row, total, count);
 
     for (std::size_t s = 0; s < count; ++s) {
       auto& from = received_[start + s].from;
@@ -223,23 +238,24 @@ private:
   }
 
   /// Messages to the row above or below, in this block or the next.
+  template <class Count>
   void sendToRow(const Place& place, const BlockWeights& weight, std::size_t row,
-                 Side to, const Beliefs& total)
+                 Side to, const Beliefs& total, Count count)
   {
     Beliefs out;
-    const std::size_t start = place.first + row * place.count;
+    const std::size_t start = place.first + row * count;
     const bool leaves = row == (to == BELOW ? LAST : 0);
     if (!leaves) {
       const std::size_t next = to == BELOW ? row + 1 : row - 1;
-      messages(total, place.count, start, to, weight.down[std::min(row, next)].v, out);
-      for (std::size_t s = 0; s < place.count; ++s)
-        received_[place.first + next * place.count + s].from[opposite(to)] = out[s];
+      messages(total, count, start, to, weight.down[std::min(row, next)].v, out);
+      for (std::size_t s = 0; s < count; ++s)
+        received_[place.first + next * count + s].from[opposite(to)] = out[s];
       return;
     }
     if (place.neighbour[to] == SETTLED)
       return;
     const Numbers price = to == BELOW ? weight.down[LAST].v : weight.above.v;
-    messages(total, place.count, start, to, price, out);
+    messages(total, count, start, to, price, out);
     const Place& target = places_[place.neighbour[to]];
     const std::size_t next = target.first + (LAST - row) * target.count;
     const SlotMap& map = place.slot[to];

@@ -159,7 +159,7 @@ TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points
   const Gap gap(parts, points, cells, parameters);
   const auto cost = [&](int a, int b) {
     return dissimilarity(regions.plane(a), regions.plane(b),
-                         regions.sums(a) + regions.sums(b), noise, parameters);
+                         fitSums(regions.sums(a) + regions.sums(b)), noise, parameters);
   };
 
   std::vector<Candidate> pairs;

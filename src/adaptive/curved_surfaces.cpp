@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/curved_surfaces.h"
 #include "adaptive/surface_bend.h"
-#include "label_runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +28,7 @@ using Borders = std::map<std::pair<int, int>, Border>;
 /// the sensor does not count.
 class BorderFinder {
 public:
-  BorderFinder(const OrganizedPoints& points, const TileRegions& regions,
+  BorderFinder(const OrganizedPoints& points, const FittedRegions& regions,
                const std::vector<std::uint16_t>& labels, double sharpest_crease)
   : goes_on(regions.planes.size(), 0)
   , points_(points)
@@ -42,14 +41,17 @@ public:
   {
     const std::size_t width = image.width;
     for (const LabelRun& run : image.runs) {
+      if (run.label == 0)
+        continue;
       const std::size_t row_end = (run.begin / width + 1) * width;
       if (run.end - 1 + REACH < row_end)
         look(run.label, run.end - 1, run.end - 1 + REACH);
       if (row_end + (REACH - 1) * width >= labels_.size())
         continue;
-      for (std::size_t i = run.begin; i < run.end; ++i)
-        if (labels_[i + width] != run.label)
-          look(run.label, i, i + REACH * width);
+      const std::uint16_t* below = labels_.data() + width;
+      for (std::size_t i = run.begin;
+           (i = findOther(run.label, below, i, run.end)) < run.end; ++i)
+        look(run.label, i, i + REACH * width);
     }
   }
 
@@ -63,7 +65,7 @@ private:
 
   void look(std::uint16_t label, std::size_t i, std::size_t j)
   {
-    if (label == 0 || label == labels_[j] || points_.valid[j] == 0)
+    if (label == labels_[j] || points_.valid[j] == 0)
       return;
     const double across = distance(label - 1, j);
     if (labels_[j] == 0) {
@@ -95,7 +97,7 @@ private:
   }
 
   const OrganizedPoints& points_;
-  const TileRegions& regions_;
+  const FittedRegions& regions_;
   const std::vector<std::uint16_t>& labels_;
   double sine_;
   std::pair<int, int> pair_ = {-1, -1};
@@ -122,7 +124,7 @@ bool isFold(const FittedPlane& a, const FittedPlane& b, const Border& border,
 }
 
 /// Number of regions in the row of folds that each region belongs to.
-std::vector<int> fanSizes(const Borders& borders, const TileRegions& regions,
+std::vector<int> fanSizes(const Borders& borders, const FittedRegions& regions,
                           double largest, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters)
 {
@@ -162,16 +164,16 @@ bool isEvident(const FittedPlane& plane, const AdaptiveParameters& parameters)
 /// Which regions are parts of a curved surface.
 class CurvedSurfaces {
 public:
-  CurvedSurfaces(const OrganizedPoints& points, const LabelRuns& image,
+  CurvedSurfaces(const OrganizedPoints& points, const LabelledPoints& image,
                  const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                 const TileRegions& regions, const std::vector<std::uint16_t>& labels)
+                 const FittedRegions& regions)
   : parameters_(parameters)
   , regions_(regions)
   , largest_(parameters.fan_share * static_cast<double>(points.countValid()))
-  , bends_(measureBends(points, labels, regions.planes))
+  , bends_(measureBends(points, image.labels, regions.planes))
   {
-    BorderFinder finder(points, regions, labels, parameters.fan_angle * DEGREE);
-    finder.look(image);
+    BorderFinder finder(points, regions, image.labels, parameters.fan_angle * DEGREE);
+    finder.look(image.runs);
     fan_ = fanSizes(finder.borders, regions, largest_, noise, parameters);
     wide_fan_ = fanSizes(finder.borders, regions, WIDE * largest_, noise, parameters);
     goes_on_ = std::move(finder.goes_on);
@@ -214,7 +216,7 @@ private:
   }
 
   const AdaptiveParameters& parameters_;
-  const TileRegions& regions_;
+  const FittedRegions& regions_;
   static constexpr double WIDE = 3.0; ///< points of a larger facet over those of one
   double largest_;                    ///< points of a facet
   std::vector<Bend> bends_;
@@ -226,20 +228,18 @@ private:
 } // namespace
 
 void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
-                        const AdaptiveParameters& parameters, TileRegions& regions,
-                        std::vector<std::uint16_t>& labels)
+                        const AdaptiveParameters& parameters, FittedRegions& regions,
+                        LabelledPoints& image)
 {
-  const LabelRuns image = findRuns(labels, points.width, 0);
-  const CurvedSurfaces curved(points, image, noise, parameters, regions, labels);
+  const CurvedSurfaces curved(points, image, noise, parameters, regions);
   std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
-  TileRegions kept;
+  FittedRegions kept;
   for (std::size_t k = 0; k < regions.planes.size(); ++k)
     if (!curved.has(k) && isEvident(regions.planes[k], parameters)) {
-      kept.planes.push_back(regions.planes[k]);
-      kept.sums.push_back(regions.sums[k]);
+      kept.add(regions.planes[k], regions.sums[k]);
       id[k + 1] = static_cast<std::uint16_t>(kept.planes.size());
     }
-  renumber(image, id, labels);
+  image.renumber(id);
   regions = std::move(kept);
 }
 

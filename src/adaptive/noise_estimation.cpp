@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/noise_estimation.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_mrf_planes::adaptive {
@@ -20,10 +22,16 @@ double percentile(std::vector<double> v, double p)
   return v[static_cast<std::size_t>(k)];
 }
 
-/// RMS with the three fitted parameters taken out, as if seen from the front
+/// Mean square distance with the three fitted parameters taken out, as if seen from the
+/// front.
+double unbiasedVariance(const FittedPlane& p)
+{
+  return p.mse * p.n / ((p.n - 3) * incidenceFactor(p));
+}
+
 double unbiasedRms(const FittedPlane& p)
 {
-  return std::sqrt(p.mse * p.n / (p.n - 3) / incidenceFactor(p));
+  return std::sqrt(unbiasedVariance(p));
 }
 
 /// rms = a + c z^2 over depth bins, relative least squares, a and c not negative
@@ -86,12 +94,44 @@ namespace {
 /// Level whose tiles the noise is read from.
 constexpr std::size_t BASE = 1;
 
-/// Whether a tile is within the noise as far as it is known.
-bool isFlat(const FittedPlane& plane, double known_growth, const NoiseLaw& noise)
+using Quarters = std::array<FittedPlane, 4>;
+
+/// The planes of the four tiles that a tile is made of. The smallest tiles have none yet.
+Quarters quartersOf(const TileLevel& below, int column, int row,
+                    const AdaptiveParameters& parameters)
 {
-  return plane.n > 3 &&
-         unbiasedRms(plane) <
-             2 * known_growth * noise.small(plane.centroid.norm()) + 1e-12;
+  Quarters planes;
+  std::array<TileSums, 4> sums;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t tile = below.at(2 * column + static_cast<int>(k % 2),
+                                      2 * row + static_cast<int>(k / 2));
+    if (!below.planes.empty())
+      planes[k] = below.planes[tile];
+    else if (isFilled(below, tile, parameters))
+      sums[k] = below.sums[tile];
+    else
+      return planes; // one without plane is enough
+  }
+  if (below.planes.empty())
+    fitPlanes(sums.data(), sums.size(), planes.data());
+  return planes;
+}
+
+/// Mean variance of tiles that are all within the noise as far as it is known; -1: one is
+/// not.
+double meanVariance(const Quarters& planes, double known_growth, const NoiseLaw& noise)
+{
+  double sum = 0;
+  for (const FittedPlane& plane : planes) {
+    if (plane.n <= 3)
+      return -1;
+    const double variance = unbiasedVariance(plane);
+    const double limit = 2 * known_growth * noise.small(plane.centroid.norm()) + 1e-12;
+    if (!(variance < limit * limit))
+      return -1;
+    sum += variance;
+  }
+  return sum / static_cast<double>(planes.size());
 }
 
 /// Growth of the rms distance from a tile's quarters to the tile: one ratio for each tile
@@ -108,16 +148,9 @@ std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
       const FittedPlane& parent = level.planes[level.at(c, r)];
       if (parent.n < 4 || 2 * r + 1 >= below.rows || 2 * c + 1 >= below.columns)
         continue;
-      double variance = 0;
-      bool good = true;
-      for (int k = 0; k < 4 && good; ++k) {
-        const std::size_t at = below.at(2 * c + k % 2, 2 * r + k / 2);
-        const FittedPlane child =
-            below.planes.empty() ? fitTile(below, at, parameters) : below.planes[at];
-        good = isFlat(child, known_growth, noise);
-        variance += good ? unbiasedRms(child) * unbiasedRms(child) / 4 : 0;
-      }
-      if (good)
+      const double variance =
+          meanVariance(quartersOf(below, c, r, parameters), known_growth, noise);
+      if (variance >= 0)
         ratios.push_back(
             unbiasedRms(parent) /
             std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
@@ -161,34 +194,74 @@ std::vector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise)
   return ratios;
 }
 
+/// A rectangle of tiles, half open.
+struct TileWindow {
+  int left, right, top, bottom;
+};
+
+/// How many tiles of any window are so: from sums over all that lie above and to the left.
+class TileCounts {
+public:
+  template <typename Predicate>
+  TileCounts(const TileLevel& level, const Predicate& is_so)
+  : stride_(static_cast<std::size_t>(level.columns) + 1)
+  , sums_(stride_ * (static_cast<std::size_t>(level.rows) + 1), 0)
+  {
+    for (int r = 0; r < level.rows; ++r) {
+      int row = 0;
+      for (int c = 0; c < level.columns; ++c) {
+        row += is_so(level.at(c, r)) ? 1 : 0;
+        sums_[at(c + 1, r + 1)] = sums_[at(c + 1, r)] + row;
+      }
+    }
+  }
+
+  int in(const TileWindow& window) const
+  {
+    return sums_[at(window.right, window.bottom)] -
+           sums_[at(window.left, window.bottom)] - sums_[at(window.right, window.top)] +
+           sums_[at(window.left, window.top)];
+  }
+
+private:
+  std::size_t at(int column, int row) const
+  {
+    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
+  }
+
+  std::size_t stride_;
+  std::vector<int> sums_;
+};
+
 /// Noise around each square of 2x2 tiles of a level over that of the whole cloud: a low
 /// percentile of the tiles near, so that edges do not count.
 std::vector<double> localFactors(const TileLevel& level, const TileLevel& squares,
                                  const NoiseLaw& noise,
                                  const AdaptiveParameters& parameters)
 {
-  constexpr std::size_t FEWEST = 4; // tiles for a percentile
+  constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
   const std::vector<double> ratios = noiseRatios(level, noise);
+  const TileCounts with_plane(level, [&](std::size_t i) { return ratios[i] > 0; });
+  const TileCounts quiet(
+      level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
   std::vector<double> factors(squares.at(0, squares.rows), 1.0);
   std::vector<double> around;
   for (int r = 0; r < squares.rows; ++r)
     for (int c = 0; c < squares.columns; ++c) {
+      const TileWindow window = {
+          std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
+          std::max(0, 2 * r - reach), std::min(level.rows, 2 * r + 2 + reach)};
+      const int tiles = with_plane.in(window);
+      if (tiles < FEWEST || quiet.in(window) > parameters.local_percentile * tiles)
+        continue;
       around.clear();
-      std::size_t quiet = 0;
-      const int bottom = std::min(level.rows - 1, 2 * r + 1 + reach);
-      const int right = std::min(level.columns - 1, 2 * c + 1 + reach);
-      for (int j = std::max(0, 2 * r - reach); j <= bottom; ++j)
-        for (int i = std::max(0, 2 * c - reach); i <= right; ++i)
-          if (const double ratio = ratios[level.at(i, j)]; ratio > 0) {
+      for (int j = window.top; j < window.bottom; ++j)
+        for (int i = window.left; i < window.right; ++i)
+          if (const double ratio = ratios[level.at(i, j)]; ratio > 0)
             around.push_back(ratio);
-            quiet += ratio <= 1 ? 1U : 0U;
-          }
-      const double below =
-          parameters.local_percentile * static_cast<double>(around.size());
-      if (around.size() >= FEWEST && static_cast<double>(quiet) <= below)
-        factors[squares.at(c, r)] = std::clamp(
-            percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
+      factors[squares.at(c, r)] = std::clamp(
+          percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
     }
   return factors;
 }

@@ -4,16 +4,31 @@
 
 namespace pcl_mrf_planes::adaptive {
 
-/** \brief Planes found, and which plane each smallest tile belongs to (-1: none). */
-struct TileRegions {
+/** \brief Planes and the sums of their points. */
+struct FittedRegions {
   std::vector<TileSums> sums;
   std::vector<FittedPlane> planes;
+
+  void add(const FittedPlane& plane, const TileSums& sum)
+  {
+    planes.push_back(plane);
+    sums.push_back(sum);
+  }
+};
+
+/** \brief Planes found, and which plane each smallest tile belongs to (-1: none). */
+struct TileRegions : FittedRegions {
   std::vector<int> cell_region; ///< per tile of level 0
 };
 
 /** \brief Variance that a plane of the given fit is allowed: noise and flatness [m^2]. */
 double allowedVariance(const FittedPlane& plane, const NoiseLaw& noise,
                        const AdaptiveParameters& p);
+
+/** \brief Whether so many points, at least \a least, fit their plane as well as the noise
+ * allows. */
+bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
+             const AdaptiveParameters& p);
 
 /** \brief Largest tiles that one plane fits: from the top of the pyramid, split where
  * the residual exceeds the noise of that extent. */

@@ -3,10 +3,10 @@
 
 namespace pcl_mrf_planes::adaptive {
 
-double dissimilarity(const FittedPlane& a, const FittedPlane& b, const TileSums& joint,
-                     const NoiseLaw& noise, const AdaptiveParameters& p)
+double dissimilarity(const FittedPlane& a, const FittedPlane& b,
+                     const FittedPlane& plane, const NoiseLaw& noise,
+                     const AdaptiveParameters& p)
 {
-  const FittedPlane plane = fitSums(joint);
   const double growth = plane.mse * plane.n - a.mse * a.n - b.mse * b.n;
   const double allowed = allowedVariance(plane, noise, p);
   if (plane.mse > p.region_tolerance * p.region_tolerance * allowed)

@@ -18,7 +18,8 @@ public:
   , planes_(tiles.planes)
   , parent_(tiles.sums.size())
   , tiles_(tiles.sums.size(), 1)
-  , neighbours_(tiles.sums.size())
+  , lists_(tiles.sums.size())
+  , marks_(tiles.sums.size(), 0)
   {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
@@ -32,37 +33,50 @@ public:
 
   void touch(int a, int b)
   {
-    if (!at(neighbours_, a).empty() && at(neighbours_, a).back() == b)
+    if (const List& list = at(lists_, a);
+        list.last >= 0 && at(links_, list.last).to == b)
       return; // along a border of several cells
-    at(neighbours_, a).push_back(b);
-    at(neighbours_, b).push_back(a);
+    append(a, b);
+    append(b, a);
   }
 
-  /// neighbours of a root as roots, each once
-  const std::vector<int>& neighbours(int a)
+  /// Calls visit(b) for the neighbours of a root, as roots, each once.
+  template <typename Visit>
+  void forEachNeighbour(int a, const Visit& visit)
   {
-    std::vector<int>& list = at(neighbours_, a);
-    for (int& i : list)
-      i = find(i);
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    list.erase(std::remove(list.begin(), list.end(), a), list.end());
-    return list;
+    ++mark_;
+    at(marks_, a) = mark_;
+    List& list = at(lists_, a);
+    int before = NO_LINK;
+    for (int k = list.first; k != NO_LINK; k = at(links_, k).next) {
+      Link& link = at(links_, k);
+      link.to = find(link.to);
+      if (at(marks_, link.to) == mark_) { // known: leaves the list
+        (before == NO_LINK ? list.first : at(links_, before).next) = link.next;
+        if (link.next == NO_LINK)
+          list.last = before;
+        continue;
+      }
+      at(marks_, link.to) = mark_;
+      before = k;
+      visit(link.to);
+    }
   }
 
   int merge(int a, int b)
   {
-    if (at(neighbours_, a).size() < at(neighbours_, b).size())
+    if (tiles(a) < tiles(b))
       std::swap(a, b);
     at(parent_, b) = a;
     at(sums_, a) += at(sums_, b);
     at(planes_, a) = fitSums(at(sums_, a));
     at(tiles_, a) += at(tiles_, b);
-    std::vector<int>& to = at(neighbours_, a);
-    std::vector<int>& from = at(neighbours_, b);
-    to.insert(to.end(), from.begin(), from.end());
-    from.clear();
-    from.shrink_to_fit();
+    List& to = at(lists_, a);
+    const List& from = at(lists_, b);
+    if (from.first != NO_LINK) {
+      (to.last == NO_LINK ? to.first : at(links_, to.last).next) = from.first;
+      to.last = from.last;
+    }
     return a;
   }
 
@@ -73,6 +87,27 @@ public:
   int size() const { return static_cast<int>(parent_.size()); }
 
 private:
+  static constexpr int NO_LINK = -1;
+
+  /// A neighbour in a list of them; lists are joined without copying.
+  struct Link {
+    int to;
+    int next;
+  };
+  struct List {
+    int first = NO_LINK;
+    int last = NO_LINK;
+  };
+
+  void append(int a, int b)
+  {
+    const auto k = static_cast<int>(links_.size());
+    links_.push_back({b, NO_LINK});
+    List& list = at(lists_, a);
+    (list.last == NO_LINK ? list.first : at(links_, list.last).next) = k;
+    list.last = k;
+  }
+
   template <typename T>
   static T& at(std::vector<T>& v, int i)
   {
@@ -82,7 +117,10 @@ private:
   std::vector<TileSums> sums_;
   std::vector<FittedPlane> planes_;
   std::vector<int> parent_, tiles_;
-  std::vector<std::vector<int>> neighbours_;
+  std::vector<List> lists_; ///< neighbours of each set
+  std::vector<Link> links_;
+  std::vector<int> marks_; ///< sets that the walk of this mark has met
+  int mark_ = 0;
 };
 
 /// A pair of regions to merge, as they were when it was looked at.
@@ -101,8 +139,9 @@ struct Candidate {
 
 /// Squared deviation of the smaller part from the joint plane over the allowed variance;
 /// negative where the joint plane itself is too far from flat.
-double dissimilarity(const FittedPlane& a, const FittedPlane& b, const TileSums& joint,
-                     const NoiseLaw& noise, const AdaptiveParameters& p);
+double dissimilarity(const FittedPlane& a, const FittedPlane& b,
+                     const FittedPlane& joint, const NoiseLaw& noise,
+                     const AdaptiveParameters& p);
 
 /// The sets that hold at least so many points, numbered in order.
 TileRegions collect(Regions& regions, const std::vector<int>& cell_region,

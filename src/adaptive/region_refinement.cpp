@@ -11,16 +11,14 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 /// Labels of 4-connected parts below the least size become 0.
-LabelRuns dropSmallParts(int width, int least, std::vector<std::uint16_t>& labels)
+void dropSmallParts(int least, LabelledPoints& image)
 {
-  LabelRuns image = findRuns(labels, width, 0);
-  const RunParts parts = connectRuns(image);
-  for (std::size_t k = 0; k < image.runs.size(); ++k)
+  const RunParts parts = connectRuns(image.runs);
+  for (std::size_t k = 0; k < image.runs.runs.size(); ++k)
     if (parts.size[static_cast<std::size_t>(parts.part_of_run[k])] < least) {
-      fillRun(image.runs[k], 0, labels);
-      image.runs[k].label = 0;
+      fillRun(image.runs.runs[k], 0, image.labels);
+      image.runs.runs[k].label = 0;
     }
-  return image;
 }
 
 /// Sums of the points of each label; whole cells of one label are added at once.
@@ -29,7 +27,6 @@ public:
   LabelSums(const OrganizedPoints& points, const TileLevel& cells,
             const std::vector<std::uint16_t>& labels, std::size_t count)
   : sums(count)
-  , majority(cells.sums.size(), 0)
   , points_(points)
   , labels_(labels)
   {
@@ -38,17 +35,14 @@ public:
         const std::size_t cell = cells.at(c, r);
         if (cells.sums[cell].n < 1)
           continue;
-        if (isWhole(c, r)) {
-          majority[cell] = labels[firstPoint(c, r)];
-          sums[majority[cell]] += cells.sums[cell];
-        }
+        if (isWhole(c, r))
+          sums[labels[firstPoint(c, r)]] += cells.sums[cell];
         else
-          majority[cell] = addPoints(c, r, cells.sums[cell].noise / cells.sums[cell].n);
+          addPoints(c, r, cells.sums[cell].noise / cells.sums[cell].n);
       }
   }
 
   std::vector<TileSums> sums;
-  std::vector<std::uint16_t> majority; ///< label of most points of each cell
 
 private:
   std::size_t firstPoint(int column, int row) const
@@ -75,10 +69,8 @@ private:
     return differ == 0;
   }
 
-  /// Adds point by point. \return the label of most of them
-  std::uint16_t addPoints(int column, int row, double noise)
+  void addPoints(int column, int row, double noise)
   {
-    votes_.clear();
     const int bottom = std::min((row + 1) * CELL, points_.height);
     const int right = std::min((column + 1) * CELL, points_.width);
     for (int v = row * CELL; v < bottom; ++v)
@@ -91,63 +83,43 @@ private:
         TileSums& sum = sums[labels_[i]];
         sum.add(points_.x[i], points_.y[i], points_.z[i]);
         sum.noise += noise;
-        vote(labels_[i]);
       }
-    const auto most = std::max_element(
-        votes_.begin(), votes_.end(), [](const auto& a, const auto& b) {
-          return a.second != b.second ? a.second < b.second : a.first > b.first;
-        });
-    return most == votes_.end() ? std::uint16_t{0} : most->first;
-  }
-
-  void vote(std::uint16_t label)
-  {
-    for (auto& [l, n] : votes_)
-      if (l == label) {
-        ++n;
-        return;
-      }
-    votes_.emplace_back(label, 1);
   }
 
   const OrganizedPoints& points_;
   const std::vector<std::uint16_t>& labels_;
-  std::vector<std::pair<std::uint16_t, int>> votes_;
 };
-
-/// Whether points fit a plane as well as their noise allows.
-bool isPlane(const FittedPlane& plane, const NoiseLaw& noise,
-             const AdaptiveParameters& parameters)
-{
-  const double tolerance = parameters.accept_tolerance * parameters.accept_tolerance;
-  return plane.n >= parameters.min_points &&
-         plane.mse <= tolerance * allowedVariance(plane, noise, parameters);
-}
 
 } // namespace
 
-TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
-                          const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                          std::vector<std::uint16_t>& labels)
+void LabelledPoints::renumber(const std::vector<std::uint16_t>& id)
 {
-  const LabelRuns image = dropSmallParts(points.width, parameters.min_points, labels);
+  for (LabelRun& run : runs.runs) {
+    if (id[run.label] != run.label)
+      fillRun(run, id[run.label], labels);
+    run.label = id[run.label];
+  }
+}
+
+FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
+                            const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                            LabelledPoints& image)
+{
+  dropSmallParts(parameters.min_points, image);
   std::size_t count = 1;
-  for (const LabelRun& run : image.runs)
+  for (const LabelRun& run : image.runs.runs)
     count = std::max<std::size_t>(count, run.label + 1U);
-  const LabelSums found(points, cells, labels, count);
-  TileRegions out;
+  const LabelSums found(points, cells, image.labels, count);
+  FittedRegions out;
   std::vector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
     const FittedPlane plane = fitSums(found.sums[k]);
-    if (!isPlane(plane, noise, parameters))
+    if (!isPlane(plane, parameters.min_points, noise, parameters))
       continue;
-    out.planes.push_back(plane);
-    out.sums.push_back(found.sums[k]);
+    out.add(plane, found.sums[k]);
     id[k] = static_cast<std::uint16_t>(out.planes.size());
   }
-  renumber(image, id, labels);
-  for (const std::uint16_t label : found.majority)
-    out.cell_region.push_back(id[label] - 1);
+  image.renumber(id);
   return out;
 }
 

@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+
 #include "adaptive/plane_merging.h"
+#include "label_runs.h"
 
 namespace pcl_mrf_planes::adaptive {
 
+/** \brief The label image, 0 for none, point by point and by the runs of its labels. */
+struct LabelledPoints {
+  std::vector<std::uint16_t> labels;
+  LabelRuns runs;
+
+  explicit LabelledPoints(std::vector<std::uint16_t> of_points, int width)
+  : labels(std::move(of_points))
+  , runs(findRuns(labels, width, 0))
+  {}
+
+  /** \brief Give every label its new number, id[label]; 0 takes it away. */
+  void renumber(const std::vector<std::uint16_t>& id);
+};
+
 /** \brief After labelling: small components of a label lose it, planes are fitted again
  * to their points, those that are not planar given the noise or too small are dropped.
- * labels are renumbered 1..planes.size(); cell_region of the result follows the labels. */
-TileRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
-                          const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                          std::vector<std::uint16_t>& labels);
+ * Labels are renumbered 1..planes.size(). */
+FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
+                            const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                            LabelledPoints& image);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -94,8 +94,9 @@ std::vector<Bend> measureBends(const OrganizedPoints& points,
                                const std::vector<std::uint16_t>& labels,
                                const std::vector<FittedPlane>& planes)
 {
-  constexpr double MANY = 4000; // points of a region of which every 16th is enough
-  constexpr std::size_t COARSE = 2;
+  // Of every 4th point every 4th, or of those every 4th, is enough for a large region.
+  constexpr double MANY = 4000;
+  constexpr double VERY_MANY = 16000;
   std::vector<QuadricSums> sums(planes.begin(), planes.end());
   const auto w = static_cast<std::size_t>(points.width);
   const auto h = static_cast<std::size_t>(points.height);
@@ -105,7 +106,10 @@ std::vector<Bend> measureBends(const OrganizedPoints& points,
       if (labels[i] == 0)
         continue;
       const std::size_t k = labels[i] - 1U;
-      if (((u | v) & COARSE) == 0 || planes[k].n < MANY)
+      const std::size_t left_out = planes[k].n < MANY        ? 0
+                                   : planes[k].n < VERY_MANY ? 2
+                                                             : 6; // bits of u and v
+      if (((u | v) & left_out) == 0)
         sums[k].add(points.x[i], points.y[i], points.z[i]);
     }
   std::vector<Bend> bends;

@@ -52,12 +52,10 @@ void poolTiles(const TileLevel& below, TileLevel& level)
 
 } // namespace
 
-FittedPlane fitTile(const TileLevel& level, std::size_t tile,
-                    const AdaptiveParameters& parameters)
+bool isFilled(const TileLevel& level, std::size_t tile,
+              const AdaptiveParameters& parameters)
 {
-  const TileSums& sums = level.sums[tile];
-  return sums.n >= parameters.min_fill * level.side * level.side ? fitSums(sums)
-                                                                 : FittedPlane();
+  return level.sums[tile].n >= parameters.min_fill * level.side * level.side;
 }
 
 std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
@@ -76,8 +74,10 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
     }
     poolTiles(pyramid[l - 1], level);
     level.planes.resize(level.sums.size());
+    fitPlanes(level.sums.data(), level.sums.size(), level.planes.data());
     for (std::size_t i = 0; i < level.sums.size(); ++i)
-      level.planes[i] = fitTile(level, i, parameters);
+      if (!isFilled(level, i, parameters))
+        level.planes[i] = FittedPlane();
   }
   return pyramid;
 }

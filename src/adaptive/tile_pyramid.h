@@ -15,7 +15,9 @@ struct TileLevel {
   int columns = 0;
   int rows = 0;
   std::vector<TileSums> sums;
-  std::vector<FittedPlane> planes; ///< none of the smallest tiles: few are needed
+  /// Planes of no points where too few are valid; none at all of the smallest tiles: few of
+  /// them are needed.
+  std::vector<FittedPlane> planes;
 
   std::size_t at(int column, int row) const
   {
@@ -24,9 +26,9 @@ struct TileLevel {
   }
 };
 
-/** \brief Plane of a tile; one of no points where too few of its points are valid. */
-FittedPlane fitTile(const TileLevel& level, std::size_t tile,
-                    const AdaptiveParameters& parameters);
+/** \brief Whether enough points of a tile are valid for it to have a plane. */
+bool isFilled(const TileLevel& level, std::size_t tile,
+              const AdaptiveParameters& parameters);
 
 /** \brief Tiles of doubling side; each level is summed from the one below.
  * O(points) for the first level, O(cells) for the rest. */

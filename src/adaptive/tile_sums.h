@@ -4,6 +4,7 @@
 #include <pcl_mrf_planes/scatter_matrix.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -48,8 +49,16 @@ struct FittedPlane : Plane {
   }
 };
 
-/// Exact least-squares plane, equation (3), by Newton's method on the characteristic
-/// polynomial: an order of magnitude faster than fitPlane(), for thousands of tiles.
-FittedPlane fitSums(const TileSums& sums);
+/// Exact least-squares planes, equation (3), by Newton's method on the characteristic
+/// polynomial, as many at once as the machine has lanes; fewer than three points have none.
+/// The same bits for every instruction set and in any company. O(count)
+void fitPlanes(const TileSums* sums, std::size_t count, FittedPlane* planes);
+
+inline FittedPlane fitSums(const TileSums& sums)
+{
+  FittedPlane plane;
+  fitPlanes(&sums, 1, &plane);
+  return plane;
+}
 
 } // namespace pcl_mrf_planes::adaptive

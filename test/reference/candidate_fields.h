@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "adaptive/cell_labelling.h"
 #include "reference/candidate_energy.h"
 #include "reference/inputs.h"
 
@@ -91,7 +92,7 @@ inline CandidateField randomField(scenes::Random& random, int width, int height,
   return field;
 }
 
-/// The field of a cloud's first round, and what it was built from.
+/// The field of a cloud's points, and what it was built from.
 struct CloudField {
   OrganizedPoints points;
   std::vector<TileLevel> pyramid;
@@ -111,7 +112,9 @@ struct CloudField {
     regions = mergeTouching(selectTiles(pyramid, noise, parameters), pyramid, noise,
                             parameters);
     regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
-    field = buildField(points, regions, pyramid[0], noise, parameters);
+    for (int round = 1; round < parameters.rounds; ++round)
+      regions = labelCells(regions, pyramid[0], noise, parameters);
+    field = buildField(points, regions, pyramid, noise, parameters);
   }
 };
 

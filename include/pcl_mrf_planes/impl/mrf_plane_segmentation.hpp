@@ -15,6 +15,7 @@
 #include <limits>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -210,9 +211,6 @@ void MRFPlaneSegmentation<PointT>::readPoints()
   findPose();
   const Eigen::Matrix3d to_sensor = pose_.rotation.transpose();
   const PointT* cloud = input_->points.data();
-  const auto as_seen = [cloud](std::size_t i) {
-    return Eigen::Vector3f(cloud[i].x, cloud[i].y, cloud[i].z);
-  };
   const auto moved = [&](std::size_t i) -> Eigen::Vector3f {
     const Eigen::Vector3d p(cloud[i].x, cloud[i].y, cloud[i].z);
     return (to_sensor * (p - pose_.origin)).template cast<float>();
@@ -221,12 +219,30 @@ void MRFPlaneSegmentation<PointT>::readPoints()
   const auto height = static_cast<int>(input_->height);
   if (pose_.origin.isZero(0.0) &&
       to_sensor.isIdentity(0.0)) // the usual case: no motion
-    points_.fill(width, height, as_seen);
+    copyPoints(width, height);
   else
     points_.fill(width, height, moved);
   if (!fake_indices_)
     limitToIndices();
   points_.resolveDepthMeasure(parameters_.depth_measure);
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::copyPoints(int width, int height)
+{
+  const PointT* cloud = input_->points.data();
+  if constexpr (std::is_same_v<decltype(PointT::x), float> &&
+                sizeof(PointT) % sizeof(float) == 0) {
+    if (&cloud->y == &cloud->x + 1 && &cloud->z == &cloud->x + 2) {
+      points_.load(width, height, &cloud->x, sizeof(PointT) / sizeof(float));
+      return; // as with all of PCL's point types
+    }
+  }
+  points_.fill(width, height, [cloud](std::size_t i) {
+    return Eigen::Vector3f(static_cast<float>(cloud[i].x),
+                           static_cast<float>(cloud[i].y),
+                           static_cast<float>(cloud[i].z));
+  });
 }
 
 template <typename PointT>

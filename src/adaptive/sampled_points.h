@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "adaptive/plane_merging.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_mrf_planes::adaptive {
+
+/** \brief Every so many-th point of every so many-th row, from the first on.
+ * O(points / every^2) */
+OrganizedPoints samplePoints(const OrganizedPoints& points, int every);
+
+/** \brief Labels of all points from those of the sampled ones (0 none, k planes[k - 1]).
+ *
+ * Points between samples of one label take it. Elsewhere a point takes, of the labels
+ * around it, the plane that it is nearest to in sigmas, or none where that is one of
+ * them and costs less. O(points) */
+std::vector<std::uint16_t>
+spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
+             const std::vector<std::uint16_t>& labels, int every,
+             const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+             const AdaptiveParameters& parameters);
+
+} // namespace pcl_mrf_planes::adaptive
