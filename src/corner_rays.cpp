@@ -80,8 +80,10 @@ Eigen::Vector3d CornerRays::pixelRay(int pixel) const
 
 bool CornerRays::isValid(int x, int y) const
 {
-  return x >= 0 && y >= 0 && x < points_.width && y < points_.height &&
-         points_.valid[static_cast<std::size_t>(y * points_.width + x)] != 0;
+  if (x < 0 || y < 0 || x >= points_.width || y >= points_.height)
+    return false;
+  const int pixel = y * points_.width + x;
+  return points_.valid[static_cast<std::size_t>(pixel)] != 0;
 }
 
 Eigen::Vector3d CornerRays::rayAt(int x, int y) const

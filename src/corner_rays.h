@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+
 namespace pcl_mrf_planes {
 
 /// Rays through the corners of the pixels of an image, from those through the points.
@@ -19,6 +21,11 @@ public:
 
   /// Ray through the point of a valid pixel.
   Eigen::Vector3d pixelRay(int pixel) const;
+
+  double pixelDepth(int pixel) const
+  {
+    return static_cast<double>(points_.depth(static_cast<std::size_t>(pixel)));
+  }
 
   /// Ray through the upper left corner of pixel (x, y), which need not lie in the image;
   /// one of the four pixels around it must be valid. O(1)

@@ -45,7 +45,8 @@ private:
   {
     if (x < 0 || x >= width_ || y < 0 || y >= height_)
       return ConnectedParts::NONE;
-    return parts_.part_of_point[static_cast<std::size_t>(y * width_ + x)];
+    const int pixel = y * width_ + x;
+    return parts_.part_of_point[static_cast<std::size_t>(pixel)];
   }
 
   std::vector<PixelCorner> follow(int x, int y, int part)

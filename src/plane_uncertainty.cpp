@@ -134,7 +134,8 @@ private:
   {
     const int row = index / points_.width / side_;
     const int column = index % points_.width / side_;
-    return static_cast<std::size_t>(row * columns_ + column);
+    const int block = row * columns_ + column;
+    return static_cast<std::size_t>(block);
   }
 
   /// Variance along the normal: a ray of length |p| meets the plane at n . p = -d.

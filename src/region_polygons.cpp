@@ -45,18 +45,23 @@ struct PlaneAxes {
 };
 
 /// Where the ray through a corner meets the plane. A ray that would meet it far beyond the
-/// pixel of the patch beside it, near the horizon, is replaced by that pixel's.
+/// pixel of the patch beside it, near the horizon, is replaced by that pixel's; it ends
+/// at four times the depth of the point where that is none of the plane, as profile PAPER has
+/// them.
 Eigen::Vector2d project(const CornerRays& rays, const PlaneAxes& axes,
                         const PixelCorner& corner)
 {
   constexpr double HORIZON = 0.25;
+  constexpr double FARTHEST = 4.0; // over the point's own depth
   const Eigen::Vector3d& normal = axes.plane.normal;
   const Eigen::Vector3d beside = rays.pixelRay(corner.pixel);
   Eigen::Vector3d ray = rays.cornerRay(corner.x, corner.y);
   if (!(normal.dot(ray) < HORIZON * std::min(normal.dot(beside), 0.0)))
     ray = beside;
   const double facing = std::min(normal.dot(ray), -1e-9);
-  return axes.flat(-axes.plane.d / facing * ray);
+  const double depth = std::min(-axes.plane.d / facing,
+                                FARTHEST * std::abs(rays.pixelDepth(corner.pixel)));
+  return axes.flat(depth * ray);
 }
 
 /// Rings on the plane, and their corners that other rings meet.

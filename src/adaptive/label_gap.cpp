@@ -19,7 +19,7 @@ namespace {
 
 constexpr int SIDE = CandidateBlocks::SIDE;
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
-constexpr int REACH = 1;            ///< of a label from its points, blocks
+constexpr int REACH = 2;            ///< of a label from the cells that have it, cells
 constexpr float CUT = 3.0f;         ///< of the data cost over "no plane"'s
 constexpr double STEP_SHARE = 0.01; ///< of the range: a slope, not a step
 

@@ -173,6 +173,16 @@ TEST_F(RegionReports, WhatWasAskedForIsTimed)
   EXPECT_GT(analysis["creases"]["min"].get<double>(), 0.0);
 }
 
+TEST_F(RegionReports, TheHelpNamesTheOptions)
+{
+  const std::string help = segment({"--help"}).out;
+  for (const char* option :
+       {"--separate-patches", "--outlines", "--creases", "--polygons", "--project",
+        "--outline-tolerance", "--min-hole-area", "--crease-tolerance",
+        "--crease-angle", "--confidence ", "--confidence-image", "--rest"})
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+}
+
 TEST_F(RegionReports, WhatCannotBeIsRefused)
 {
   const std::string in = path("in.pcd");
