@@ -33,27 +33,33 @@ public:
 
   Borders find()
   {
-    for (int y = 0; y < points_.height; ++y)
-      walk(y * points_.width, 1, points_.width);
-    for (int x = 0; x < points_.width; ++x)
-      walk(x, points_.width, points_.height);
+    // The last point of a plane in the row, and in each column.
+    std::vector<int> above(static_cast<std::size_t>(points_.width), NOTHING);
+    int here = 0;
+    for (int y = 0; y < points_.height; ++y) {
+      int left = NOTHING;
+      for (int& up : above) {
+        if (labels_[static_cast<std::size_t>(here)] != 0) {
+          compare(left, here, 1);
+          compare(up, here, points_.width);
+          left = up = here;
+        }
+        ++here;
+      }
+    }
     return std::move(borders_);
   }
 
 private:
-  void walk(int start, int step, int count)
+  static constexpr int NOTHING = -1;
+
+  void compare(int last, int here, int step)
   {
-    int last = -1; // the last point of a plane
-    for (int k = 0; k < count; ++k) {
-      const int here = start + k * step;
-      const std::uint16_t label = labels_[static_cast<std::size_t>(here)];
-      if (label == 0)
-        continue;
-      if (last >= 0 && labels_[static_cast<std::size_t>(last)] != label &&
-          (here - last) / step <= reach_ + 1)
-        note(last, here);
-      last = here;
-    }
+    if (last != NOTHING &&
+        labels_[static_cast<std::size_t>(last)] !=
+            labels_[static_cast<std::size_t>(here)] &&
+        here - last <= (reach_ + 1) * step)
+      note(last, here);
   }
 
   void note(int a, int b)

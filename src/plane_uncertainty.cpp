@@ -63,7 +63,10 @@ public:
   , columns_((points.width + side_ - 1) / side_)
   , blocks_(static_cast<std::size_t>(columns_) *
             static_cast<std::size_t>((points.height + side_ - 1) / side_))
-  {}
+  {
+    for (int x = 0; x < points.width; ++x)
+      block_column_.push_back(x / side_);
+  }
 
   Evidence add(const PlaneRegion& region)
   {
@@ -107,7 +110,16 @@ private:
     const double v0 = t2.dot(out.centroid);
     const double unbias = out.n / (out.n - 3.0); // three numbers were fitted
     double s11 = 0, s12 = 0, s22 = 0, s1 = 0, s2 = 0, s = 0;
+    // Indices ascend: the row is known without a division.
+    int row = 0;
+    int row_start = 0;
+    Block* blocks = blocks_.data();
     for (const int index : region.indices) {
+      if (index - row_start >= points_.width) {
+        row = index / points_.width;
+        row_start = row * points_.width;
+        blocks = &blocks_[firstBlock(row)];
+      }
       const auto i = static_cast<std::size_t>(index);
       const Eigen::Vector3d p(points_.x[i], points_.y[i], points_.z[i]);
       const double u = t1.dot(p) - u0;
@@ -120,7 +132,7 @@ private:
       s1 += variance * u;
       s2 += variance * v;
       s += variance;
-      Block& block = blocks_[blockOf(index)];
+      Block& block = blocks[block_column_[static_cast<std::size_t>(index - row_start)]];
       block.n += 1;
       block.u += u;
       block.v += v;
@@ -130,11 +142,9 @@ private:
     out.noise << s11, s12, s1, s12, s22, s2, s1, s2, s;
   }
 
-  std::size_t blockOf(int index) const
+  std::size_t firstBlock(int row) const
   {
-    const int row = index / points_.width / side_;
-    const int column = index % points_.width / side_;
-    const int block = row * columns_ + column;
+    const int block = row / side_ * columns_;
     return static_cast<std::size_t>(block);
   }
 
@@ -169,6 +179,7 @@ private:
   int side_;
   int columns_;
   std::vector<Block> blocks_;
+  std::vector<int> block_column_; ///< of each column of the image
 };
 
 /// Points per independent one of all regions, by the median: a few that are not flat have
