@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -204,10 +205,30 @@ private:
 
   bool isAll(std::uint16_t label, std::size_t i) const
   {
-    std::uint16_t differ = 0;
-    for (std::size_t k = 0; k < SIDE; ++k)
-      differ = static_cast<std::uint16_t>(differ | (labels_[i + k] ^ label));
-    return differ == 0;
+    constexpr std::uint64_t FOUR_TIMES = 0x0001000100010001U;
+    std::uint64_t words[2];
+    static_assert(sizeof(words) == SIDE * sizeof(label), "a row of a block");
+    std::memcpy(words, &labels_[i], sizeof(words));
+    const std::uint64_t all = FOUR_TIMES * label;
+    return ((words[0] ^ all) | (words[1] ^ all)) == 0;
+  }
+
+  /// data() of eight points.
+  void rowData(std::size_t i, const Candidate& c, float* cost) const
+  {
+    if (c.label == 0) {
+      std::fill_n(cost, SIDE, none_);
+      return;
+    }
+    const float* x = &points_.x[i];
+    const float* y = &points_.y[i];
+    const float* z = &points_.z[i];
+    const float most = CUT * none_;
+    for (std::size_t k = 0; k < SIDE; ++k) {
+      const float sigmas =
+          std::abs(c.a * x[k] + c.b * y[k] + c.c * z[k] + c.d) * c.per_sigma;
+      cost[k] = sigmas < most ? sigmas : most;
+    }
   }
 
   /// The same as gapAt() where allAgree(), for eight points at once: no other label saves
@@ -223,14 +244,13 @@ private:
     std::fill_n(own, SIDE, mine == 0 ? none_ : CUT * none_);
     std::fill_n(least, SIDE, mine == 0 ? none_ : std::numeric_limits<float>::max());
     for (std::size_t s = 0; s < count; ++s) {
-      const Candidate& c = candidates[s];
       float cost[SIDE];
-      for (std::size_t k = 0; k < SIDE; ++k)
-        cost[k] = data(i + k, c);
-      for (std::size_t k = 0; k < SIDE; ++k)
-        own[k] = c.label == mine ? cost[k] : own[k];
-      for (std::size_t k = 0; k < SIDE; ++k)
-        least[k] = c.label != mine && cost[k] < least[k] ? cost[k] : least[k];
+      rowData(i, candidates[s], cost);
+      if (candidates[s].label == mine)
+        std::copy_n(cost, SIDE, own);
+      else
+        for (std::size_t k = 0; k < SIDE; ++k)
+          least[k] = cost[k] < least[k] ? cost[k] : least[k];
     }
     for (std::size_t k = 0; k < SIDE; ++k) {
       const float gap = least[k] - own[k] + right_[x + k - 1] + right_[x + k] +
