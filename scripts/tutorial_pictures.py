@@ -27,7 +27,7 @@ def save(figure, name):
     path = DOC / 'pictures' / f'tutorial_{name}.png'
     figure.savefig(path, dpi=80)
     plt.close(figure)
-    Image.open(path).convert('RGB').quantize(96).save(path, optimize=True)
+    Image.open(path).convert('RGB').quantize(255).save(path, optimize=True)
 
 
 def picture_axes(columns=1):
