@@ -4,15 +4,19 @@
 #include "reference/clouds.h"
 #include "reference/inputs.h"
 
+#include "polygon_simplification.h"
+
 #include <pcl/ModelCoefficients.h>
 #include <pcl/common/transforms.h>
 #include <pcl/filters/extract_indices.h>
 #include <pcl/filters/project_inliers.h>
+#include <pcl/io/pcd_io.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
+#include <cstdlib>
+#include <filesystem>
 
 namespace pcl_mrf_planes {
 namespace {
@@ -256,6 +260,57 @@ TEST_F(AnalysisTest, ParametersThatCannotBeAreRefused)
   segmentation_.setCreaseParameters(crease);
   segment();
   EXPECT_TRUE(models_.empty());
+}
+
+/// Corners in axes of the plane.
+FlatPolygon flatten(const PlanePolygon& patch, const Eigen::Vector3d& normal)
+{
+  const Eigen::Vector3d right = normal.unitOrthogonal();
+  const Eigen::Vector3d up = normal.cross(right);
+  const auto flat = [&](const PlaneRing& ring) {
+    FlatRing out;
+    for (const Eigen::Vector3d& corner : ring)
+      out.emplace_back(right.dot(corner), up.dot(corner));
+    return out;
+  };
+  FlatPolygon out = {flat(patch.outer)};
+  for (const PlaneRing& hole : patch.holes)
+    out.push_back(flat(hole));
+  return out;
+}
+
+TEST_F(AnalysisTest, HoldsForRealClouds)
+{
+  const char* folder = std::getenv("PCL_MRF_PLANES_DATA");
+  if (folder == nullptr || !std::filesystem::is_directory(folder))
+    GTEST_SKIP() << "PCL_MRF_PLANES_DATA names no folder of clouds";
+  std::size_t patches = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".pcd")
+      continue;
+    Cloud::Ptr cloud(new Cloud);
+    if (pcl::io::loadPCDFile(entry.path().string(), *cloud) != 0 ||
+        !cloud->isOrganized())
+      continue;
+    segmentation_.setInputCloud(cloud);
+    segment();
+    std::vector<RegionOutline> outlines;
+    segmentation_.computeOutlines(outlines);
+    ASSERT_EQ(outlines.size(), models_.size());
+    for (std::size_t k = 0; k < outlines.size(); ++k)
+      for (const PlanePolygon& patch : outlines[k].patches) {
+        EXPECT_TRUE(isValidPolygon(flatten(patch, model(k).head<3>()))) << entry.path();
+        ++patches;
+      }
+    std::vector<PlaneUncertainty> uncertainties;
+    segmentation_.computeUncertainties(uncertainties);
+    for (const PlaneUncertainty& one : uncertainties)
+      EXPECT_TRUE(!one.valid || (one.covariance.allFinite() && one.bias.allFinite()));
+    std::vector<float> confidence;
+    segmentation_.computeConfidence(confidence);
+    EXPECT_EQ(confidence.size(), cloud->size());
+  }
+  EXPECT_GT(patches, 0U);
 }
 
 } // namespace
