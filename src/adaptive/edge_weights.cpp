@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/edge_weights.h"
+
+namespace pcl_mrf_planes::adaptive {
+
+namespace {
+
+constexpr int SIDE = CandidateBlocks::SIDE;
+constexpr double STEP_SHARE = 0.01; // of the range: a slope, not a step
+
+} // namespace
+
+EdgeWeights::EdgeWeights(const OrganizedPoints& points, const NoiseLaw& noise,
+                         const AdaptiveParameters& parameters, CostUnits units)
+: points_(points)
+, noise_(noise)
+, parameters_(parameters)
+, price_(static_cast<float>(parameters.label_change) * units.per_sigma)
+{
+  if (points.depth_measure == DepthMeasure::RANGE)
+    for (std::size_t i = 0; i < points.size(); ++i)
+      ranges_.push_back(points.depth(i));
+  depth_ = ranges_.empty() ? points.z.data() : ranges_.data();
+}
+
+void EdgeWeights::fill(const BlockPlace& place, double range, BlockWeights& out)
+{
+  per_step_ = static_cast<float>(
+      1.0 / (parameters_.step_sigmas * noise_.small(range) + STEP_SHARE * range));
+  const int width = points_.width;
+  const bool right_edge = place.column + place.columns == width;
+  for (int r = 0; r < place.rows; ++r) {
+    const std::size_t i = place.pointAt(r, width);
+    const auto row = static_cast<std::size_t>(r);
+    out.right[row] = edges(i, i + 1, place.columns - (right_edge ? 1 : 0));
+    if (place.row + r + 1 < points_.height)
+      out.down[row] = edges(i, i + static_cast<std::size_t>(width), place.columns);
+    if (place.column > 0)
+      out.left.v[row] = edges(i - 1, i, 1).v[0];
+  }
+  if (place.row > 0) {
+    const std::size_t i = place.pointAt(0, width);
+    out.above = edges(i - static_cast<std::size_t>(width), i, place.columns);
+  }
+}
+
+/// Between points i and j and those that follow them.
+BlockRow EdgeWeights::edges(std::size_t i, std::size_t j, int count) const
+{
+  std::int16_t weight[SIDE] = {};
+  if (count == SIDE) // known to the compiler: no loop is left
+    fillEdges(i, j, SIDE, weight);
+  else
+    fillEdges(i, j, static_cast<std::size_t>(count), weight);
+  return {gather(weight)};
+}
+
+inline void EdgeWeights::fillEdges(std::size_t i, std::size_t j, std::size_t count,
+                                   std::int16_t* weight) const
+{
+  const auto least = static_cast<float>(parameters_.min_weight);
+  for (std::size_t k = 0; k < count; ++k) {
+    const float step = (depth_[i + k] - depth_[j + k]) * per_step_;
+    const float falling = 1.0f / (1.0f + step * step);
+    const float share = falling > least ? falling : least;
+    const int edge = points_.valid[i + k] & points_.valid[j + k];
+    weight[k] = static_cast<std::int16_t>(
+        static_cast<std::int32_t>(price_ * share + 0.5f) & -edge);
+  }
+}
+
+} // namespace pcl_mrf_planes::adaptive

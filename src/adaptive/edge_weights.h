@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "adaptive/block_place.h"
+
+#include <vector>
+
+namespace pcl_mrf_planes::adaptive {
+
+/** \brief Potts weights of the edges of a field: the price of a label change, which falls with
+ * the step in depth down to a share of itself, so that labels change where depth does. */
+class EdgeWeights {
+public:
+  EdgeWeights(const OrganizedPoints& points, const NoiseLaw& noise,
+              const AdaptiveParameters& parameters, CostUnits units);
+
+  /** \brief Weights of all edges of a block and of those to the blocks above and to the
+   * left. \param[in] range distance of its points from the sensor, metres */
+  void fill(const BlockPlace& place, double range, BlockWeights& out);
+
+private:
+  BlockRow edges(std::size_t i, std::size_t j, int count) const;
+  void fillEdges(std::size_t i, std::size_t j, std::size_t count,
+                 std::int16_t* weight) const;
+
+  const OrganizedPoints& points_;
+  const NoiseLaw& noise_;
+  const AdaptiveParameters& parameters_;
+  float price_; ///< of a change where there is no step
+  std::vector<float> ranges_;
+  const float* depth_ = nullptr;
+  float per_step_ = 0.0f; ///< of the block at hand
+};
+
+} // namespace pcl_mrf_planes::adaptive
