@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/label_gap.h"
 
+#include "adaptive/block_costs.h"
 #include "adaptive/candidate_field.h"
+#include "adaptive/label_scale.h"
 #include "adaptive/noise_estimation.h"
 #include "adaptive/tile_pyramid.h"
 
@@ -21,7 +23,6 @@ namespace {
 constexpr int SIDE = CandidateBlocks::SIDE;
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
 constexpr int REACH = 2;            ///< of a label from the cells that have it, cells
-constexpr float CUT = 3.0f;         ///< of the data cost over "no plane"'s
 constexpr double STEP_SHARE = 0.01; ///< of the range: a slope, not a step
 
 /// What the field knows of a plane, from its region.
@@ -82,8 +83,10 @@ public:
   , below_(width_, 0.0f)
   {
     assignLocalNoise(pyramid_, noise_, parameters_);
-    for (const PlaneRegion& region : regions)
+    for (const PlaneRegion& region : regions) {
       regions_.planes.push_back(fittedPlane(region));
+      scales_.push_back(labelScale(regions_.planes.back(), noise_, parameters_));
+    }
     regions_.cell_region = cellRegions(pyramid_[0], points, labels);
     blocks_ = findCandidates(regions_, pyramid_[0], points.width, points.height, REACH);
     per_step_.resize(width_);
@@ -130,18 +133,9 @@ private:
   {
     if (label == 0)
       return {0, 0, 0, 0, 0, 0};
-    const FittedPlane& p = regions_.planes[label - 1U];
-    const double growth = noise_.growthOf(p.n);
-    const double bend =
-        std::min(parameters_.flatness * p.extent, parameters_.max_flatness);
-    const double allowed =
-        growth * growth * incidenceFactor(p) * variance + bend * bend;
-    return {label,
-            static_cast<float>(p.normal.x()),
-            static_cast<float>(p.normal.y()),
-            static_cast<float>(p.normal.z()),
-            static_cast<float>(p.d),
-            static_cast<float>(1.0 / std::sqrt(allowed))};
+    const LabelScale& p = scales_[label - 1U];
+    const double allowed = p.growth * variance + p.bend;
+    return {label, p.a, p.b, p.c, p.d, static_cast<float>(1.0 / std::sqrt(allowed))};
   }
 
   /// Prices of changes to the right of and below the points of a row.
@@ -176,7 +170,8 @@ private:
   {
     const float distance =
         std::abs(c.a * points_.x[i] + c.b * points_.y[i] + c.c * points_.z[i] + c.d);
-    return c.label == 0 ? none_ : std::min(distance * c.per_sigma, CUT * none_);
+    return c.label == 0 ? none_
+                        : std::min(distance * c.per_sigma, BlockCosts::MOST * none_);
   }
 
   /// Points of one row of a block.
@@ -223,7 +218,7 @@ private:
     const float* x = &points_.x[i];
     const float* y = &points_.y[i];
     const float* z = &points_.z[i];
-    const float most = CUT * none_;
+    const float most = BlockCosts::MOST * none_;
     for (std::size_t k = 0; k < SIDE; ++k) {
       const float sigmas =
           std::abs(c.a * x[k] + c.b * y[k] + c.c * z[k] + c.d) * c.per_sigma;
@@ -241,7 +236,7 @@ private:
         blocks_.count[blocks_.at(static_cast<int>(x) / SIDE, y / SIDE)];
     float own[SIDE];
     float least[SIDE];
-    std::fill_n(own, SIDE, mine == 0 ? none_ : CUT * none_);
+    std::fill_n(own, SIDE, mine == 0 ? none_ : BlockCosts::MOST * none_);
     std::fill_n(least, SIDE, mine == 0 ? none_ : std::numeric_limits<float>::max());
     for (std::size_t s = 0; s < count; ++s) {
       float cost[SIDE];
@@ -280,7 +275,7 @@ private:
     const std::size_t count =
         blocks_.count[blocks_.at(static_cast<int>(x) / SIDE, y / SIDE)];
     // "No plane" stands beside a plane that was not found and fits no better.
-    float own = mine == 0 ? none_ - saved(0) : CUT * none_;
+    float own = mine == 0 ? none_ - saved(0) : BlockCosts::MOST * none_;
     float least = mine == 0 ? none_ : std::numeric_limits<float>::max();
     for (std::size_t s = 0; s < count; ++s) {
       const float cost = data(i, candidates[s]) - saved(candidates[s].label);
@@ -300,6 +295,7 @@ private:
   std::vector<TileLevel> pyramid_;
   NoiseLaw noise_;
   TileRegions regions_;
+  std::vector<LabelScale> scales_;
   CandidateBlocks blocks_;
   // of the row of blocks, and the row of points, at hand
   std::vector<float> per_step_;
