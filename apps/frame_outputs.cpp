@@ -4,6 +4,7 @@
 #include "output_file.h"
 #include "pictures.h"
 #include "plane_files.h"
+#include "region_files.h"
 #include "report_json.h"
 
 #include <pcl_mrf_planes/io/cloud_fields.h>
@@ -94,8 +95,11 @@ void writeOutputs(const OutputFiles& files, const SegmentedFrame& segmented,
     writeColouredPly(files.ply, segmented.cloud, result.labels);
   if (!files.truth.empty())
     writeTruth(files.truth, segmented);
+  writeRegionFiles(options.regions, file, result.labels, result.analysis);
   if (!files.cloud.empty())
-    io::writeCloud(files.cloud, io::withLabels(file, result.labels),
+    io::writeCloud(files.cloud,
+                   withRegions(options.regions, io::withLabels(file, result.labels),
+                               result.analysis),
                    options.format.value_or(file.format));
   if (!files.models.empty())
     writeReport(files.models, segmented, options);

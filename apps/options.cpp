@@ -80,6 +80,7 @@ po::options_description allVisible()
       .add(inputOptions())
       .add(batchOptions())
       .add(runOptions())
+      .add(regionOptions())
       .add(describe("Parameters", commonParameterOptions()))
       .add(
           describe("Parameters of profile default", parameterOptions(Method::ADAPTIVE)))
@@ -151,12 +152,14 @@ void readParameters(const po::variables_map& values, Options& options)
 /// Files that would overwrite each other; only OUT.pcd may be the input.
 void checkFileNames(const Options& options)
 {
-  const std::vector<std::pair<std::string, std::string>> outputs = {
+  std::vector<std::pair<std::string, std::string>> outputs = {
       {"OUT.pcd", options.output},
       {"--models", options.models},
       {"--label-image", options.label_image},
       {"--overlay", options.overlay},
       {"--ply", options.ply}};
+  for (const auto& file : options.regions.files())
+    outputs.push_back(file);
   for (std::size_t i = 1; i < outputs.size(); ++i)
     if (sameFile(outputs[i].second, options.inputs[0]))
       throw UsageError(outputs[i].first + " would overwrite the input '" +
@@ -189,6 +192,9 @@ void readBatchInputs(const std::vector<std::string>& files, Options& options)
     throw UsageError("no input; name files, folders or patterns, see --help");
   for (const auto& output :
        {std::make_pair("models", options.models),
+        std::make_pair("polygons", options.regions.polygons),
+        std::make_pair("confidence-image", options.regions.confidence_image),
+        std::make_pair("rest", options.regions.rest),
         std::make_pair("label-image", options.label_image),
         std::make_pair("overlay", options.overlay),
         std::make_pair("masks", options.masks), std::make_pair("ply", options.ply)})
@@ -217,7 +223,7 @@ void readFileNames(const po::variables_map& values, Options& options)
     options.output = files[1];
   if (options.output.empty() && options.models.empty() && options.label_image.empty() &&
       options.overlay.empty() && options.masks.empty() && options.ply.empty() &&
-      !options.timing)
+      !options.timing && !options.regions.writesFiles())
     throw UsageError("nothing to write; name OUT.pcd, or give --models, --label-image, "
                      "--overlay, --masks, --ply, --timing or --output-folder");
   checkFileNames(options);
@@ -250,6 +256,11 @@ Options parseOptions(int argc, const char* const argv[])
     options.wrap = values["wrap"].as<bool>();
     options.batch = readBatchOptions(values);
     readParameters(values, options);
+    options.regions = readRegionOptions(values);
+    if (options.wrap && options.regions.any())
+      throw UsageError("--wrap has only labels and planes to give; leave out " +
+                       std::string("patches, outlines, creases, confidence, --project "
+                                   "and --rest"));
     readFileNames(values, options);
   }
   catch (const po::error& problem) {

@@ -3,6 +3,7 @@
 
 #include "batch_options.h"
 #include "parameter_options.h"
+#include "region_options.h"
 
 #include <pcl_mrf_planes/io/cloud_file.h>
 #include <pcl_mrf_planes/io/frame.h>
@@ -34,6 +35,7 @@ struct Options {
   bool quiet = false;
   std::string profile = "default";
   Parameters parameters;
+  RegionOptions regions;
 };
 
 /** \brief Read the command line and the configuration file it names.

@@ -5,6 +5,7 @@
 #include "frame_outputs.h"
 #include "interruption.h"
 #include "options.h"
+#include "output_file.h"
 #include "segmented_frame.h"
 #include "table.h"
 
@@ -57,6 +58,9 @@ int runSingle(const Options& options)
   takeInterruptions(OnInterruption::END);
   const OutputFiles files = outputsOf(options);
   checkOutputs(files);
+  for (const auto& file : options.regions.files())
+    if (!file.second.empty())
+      checkWritable(file.second);
   const io::FrameSource source = singleFrame(options);
   const FrameAndResult all = segmentFrame(source, options);
   writeOutputs(files, {source, all.frame, *all.cloud, all.result}, options);

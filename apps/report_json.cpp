@@ -2,6 +2,7 @@
 #include "report_json.h"
 
 #include "output_file.h"
+#include "region_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -61,6 +62,7 @@ Json planesJson(const SegmentedCloud& result)
                       {"area_m2", plane.area},
                       {"rms_m", plane.rms},
                       {"centroid", {centroid[0], centroid[1], centroid[2]}}});
+    describePlane(result.analysis, planes.size() - 1, planes.back());
   }
   return planes;
 }
@@ -117,11 +119,18 @@ void writeReport(const std::string& path, const SegmentedFrame& segmented,
     report["camera"] = cameraJson(*segmented.frame.camera);
   report["counts"] = countsJson(result);
   report["planes"] = planesJson(result);
+  if (options.regions.creases)
+    describeCreases(result.analysis, report);
   if (!result.report.energy.empty())
     report["energy"] = energyJson(result.report);
   report["parameters"] = parametersJson(options);
-  if (options.timing || options.batch.active())
+  if (options.timing || options.batch.active()) {
     report["timing"] = timingJson(result.timing);
+    for (const auto& stage : result.analysis_timing.stages())
+      report["timing"]["analysis"][stage.first] = {{"median", stage.second.median},
+                                                   {"min", stage.second.least},
+                                                   {"max", stage.second.most}};
+  }
   const std::string text =
       report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
   writeBytes(path, text);

@@ -6,12 +6,16 @@
 namespace pcl_mrf_planes::apps {
 
 SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& cloud,
-                            const Parameters& parameters, int repeat)
+                            const Parameters& parameters, int repeat,
+                            const RegionOptions& region_options)
 {
   using Segmentation = pcl::MRFPlaneSegmentation<pcl::PointXYZ>;
   Segmentation segmentation;
   segmentation.setParameters(parameters);
   segmentation.setInputCloud(cloud);
+  segmentation.setSeparatePatches(region_options.separate_patches);
+  segmentation.setOutlineParameters(region_options.outline);
+  segmentation.setCreaseParameters(region_options.crease);
 
   SegmentedCloud result;
   std::vector<pcl::ModelCoefficients> models;
@@ -28,6 +32,8 @@ SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& clou
                                " points); cut it into parts or raise "
                                "--merge-threshold");
     result.timing.add(segmentation.getReport().stage_ms);
+    analyseRegions(segmentation, region_options, result.analysis);
+    result.analysis_timing.add(result.analysis.stage_ms);
   }
   result.report = segmentation.getReport();
   if (result.report.valid_points == 0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "region_analysis.h"
 #include "timing.h"
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
@@ -27,13 +28,16 @@ struct SegmentedCloud {
   std::vector<PlaneSummary> planes; ///< label k is planes[k - 1]
   pcl::PointCloud<pcl::Label> labels;
   SegmentationReport report;
+  RegionAnalysis analysis;
   Timing timing;
+  Timing analysis_timing;
 };
 
 /** \brief Segment \a cloud \a repeat times with the same result, and time it.
  * \throws std::runtime_error when the segmentation gives none
  */
 SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& cloud,
-                            const Parameters& parameters, int repeat);
+                            const Parameters& parameters, int repeat,
+                            const RegionOptions& regions = {});
 
 } // namespace pcl_mrf_planes::apps

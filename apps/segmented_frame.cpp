@@ -19,7 +19,8 @@ FrameAndResult segmentFrame(const io::FrameSource& source, const Options& option
     all.cloud = io::coordinates(all.frame.file);
     all.result = options.wrap
                      ? segmentWrapped(*all.cloud, options.parameters, options.repeat)
-                     : segmentCloud(all.cloud, options.parameters, options.repeat);
+                     : segmentCloud(all.cloud, options.parameters, options.repeat,
+                                    options.regions);
   }
   catch (const std::bad_alloc&) {
     throw;

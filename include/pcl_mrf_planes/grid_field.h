@@ -15,6 +15,21 @@ namespace pcl_mrf_planes {
  * 4-neighbours. It knows nothing of planes: any problem of this shape can be put into
  * it and solved by BeliefPropagation or propagateRows().
  *
+ * \code
+ * GridField field(width, height, labels);      // Potts: a change costs 500 anywhere
+ * for (int a = 0; a < labels; ++a)
+ *   for (int b = 0; b < a; ++b)
+ *     field.setPairwise(a, b, 500);
+ * field.setData(x, y, l, cost);                // for every site and label
+ * field.setRightEdge(x, y, 0);                 // for every edge: the whole price
+ * field.setDownEdge(x, y, 0);
+ * BeliefPropagation propagation(field);
+ * propagation.iterate(40, 0);
+ * std::vector<std::uint16_t> labelling = propagation.mapLabels();
+ * std::vector<std::uint16_t> how_sure = beliefGaps(field, propagation);
+ * \endcode
+ * examples/denoise_labels.cpp is a whole program.
+ *
  * All costs are unsigned 16-bit integers. The largest data cost plus four times the
  * largest price must not exceed 65535, so that no sum of a site's data cost and its
  * four messages overflows.

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <pcl_mrf_planes/parameters.h>
+#include <pcl_mrf_planes/plane_creases.h>
+#include <pcl_mrf_planes/plane_projection.h>
 #include <pcl_mrf_planes/plane_segmentation.h>
+#include <pcl_mrf_planes/plane_uncertainty.h>
+#include <pcl_mrf_planes/region_polygons.h>
 #include <pcl_mrf_planes/sensor_pose.h>
 
 #include <pcl/ModelCoefficients.h>
@@ -16,6 +20,7 @@
 #include <Eigen/Core>
 #include <Eigen/StdVector>
 
+#include <cstddef>
 #include <vector>
 
 namespace pcl {
@@ -80,6 +85,15 @@ public:
       std::vector<Eigen::Matrix3f, Eigen::aligned_allocator<Eigen::Matrix3f>>;
   using PlanarRegions =
       std::vector<PlanarRegion<PointT>, Eigen::aligned_allocator<PlanarRegion<PointT>>>;
+
+  using PlanarPolygons = std::vector<PlanarPolygon<PointT>,
+                                     Eigen::aligned_allocator<PlanarPolygon<PointT>>>;
+  using PlaneUncertainty = pcl_mrf_planes::PlaneUncertainty;
+  using RegionOutline = pcl_mrf_planes::RegionOutline;
+  using OutlineParameters = pcl_mrf_planes::OutlineParameters;
+  using PlaneCrease = pcl_mrf_planes::PlaneCrease;
+  using CreaseParameters = pcl_mrf_planes::CreaseParameters;
+  using ProjectionWay = pcl_mrf_planes::ProjectionWay;
 
   MRFPlaneSegmentation() = default;
   ~MRFPlaneSegmentation() override = default;
@@ -194,6 +208,24 @@ public:
   /** \brief Move the contours of planar regions onto their planes. */
   void setProjectPoints(bool project) { project_points_ = project; }
   bool getProjectPoints() const { return project_points_; }
+
+  /** \brief Whether the connected patches of a plane are regions of their own, with the
+   * same coefficients; min_inliers and min_area then hold for patches. */
+  void setSeparatePatches(bool separate) { separate_patches_ = separate; }
+  bool getSeparatePatches() const { return separate_patches_; }
+
+  /** \brief Whether the contours of planar regions are corners of polygons, simplified to
+   * the tolerance of the outlines, on the plane, in place of all points of the border. */
+  void setSimplifyContours(bool simplify) { simplify_contours_ = simplify; }
+  bool getSimplifyContours() const { return simplify_contours_; }
+
+  /** \brief Tolerance of outlines, and what they leave out. */
+  void setOutlineParameters(const OutlineParameters& outline) { outline_ = outline; }
+  const OutlineParameters& getOutlineParameters() const { return outline_; }
+
+  /** \brief What counts as a crease. */
+  void setCreaseParameters(const CreaseParameters& crease) { crease_ = crease; }
+  const CreaseParameters& getCreaseParameters() const { return crease_; }
   ///@}
 
   /** \brief Segment all planes of the input cloud.
@@ -220,7 +252,7 @@ public:
 
   /** \brief Segment all planes of the input cloud.
    * \param[out] regions for each plane its statistics, coefficients and the outer
-   * contour of its largest connected part
+   * contour of its largest connected part; see setSimplifyContours()
    */
   void segment(PlanarRegions& regions);
 
@@ -247,6 +279,42 @@ public:
   /** \brief The last run in the sensor frame: the image of planar fits, the
    * tile-to-plane map, regions with areas, and the label image. */
   const pcl_mrf_planes::PlaneSegmentation& getResult() const { return result_; }
+
+  /// \name What follows from the last run, computed when it is asked for
+  /// In the frame of the cloud, outputs cleared first, region k at place k. The cloud must
+  /// be the one that was segmented.
+  ///@{
+
+  /** \brief Covariance and bias of the parameters of each region's plane. O(points) */
+  void computeUncertainties(std::vector<PlaneUncertainty>& uncertainties) const;
+
+  /** \brief Patches of each region as polygons with holes, and its convex hull. */
+  void computeOutlines(std::vector<RegionOutline>& outlines) const;
+
+  /** \brief The same without the holes, in the type of PCL.
+   * \param[out] polygons of all patches, by region
+   * \param[out] region_of_polygon indices of the regions */
+  void computePolygons(PlanarPolygons& polygons,
+                       std::vector<std::size_t>& region_of_polygon) const;
+
+  /** \brief Convex hull of each region in the type of PCL. */
+  void computeHulls(PlanarPolygons& hulls) const;
+
+  /** \brief Pieces of lines along which two regions meet. */
+  void computeCreases(std::vector<PlaneCrease>& creases) const;
+
+  /** \brief Confidence of the label of every point, 0 to 1, 0 for invalid points. */
+  void computeConfidence(std::vector<float>& confidence) const;
+
+  /** \brief The cloud with the points of planes moved onto them; the others, and all other
+   * fields, stay as they are. O(points) */
+  void projectOntoPlanes(PointCloud& output,
+                         ProjectionWay way = ProjectionWay::NORMAL) const;
+
+  /** \brief Points that lie on some plane and measured points that lie on none, ascending,
+   * for pcl::ExtractIndices and setIndices() of other classes. O(points) */
+  void extractIndices(PointIndices& on_planes, PointIndices& rest) const;
+  ///@}
 
 protected:
   using PCLBase<PointT>::input_;
@@ -278,8 +346,27 @@ private:
   std::vector<PointIndices> contours() const;
   Eigen::Vector4d coefficients(const pcl_mrf_planes::Plane& plane) const;
 
+  /// Runs \a work on the last result; reports what went wrong otherwise.
+  template <typename Work>
+  void analyse(const char* name, const Work& work) const;
+
+  void separatePatches();
+  const std::vector<pcl_mrf_planes::PlaneRegion>& wholeRegions() const;
+  std::size_t wholeRegion(std::size_t region) const;
+  std::vector<RegionOutline> outlines() const;
+  typename PointCloud::VectorType
+  toContour(const pcl_mrf_planes::PlaneRing& ring) const;
+  PlanarPolygon<PointT> toPolygon(const pcl_mrf_planes::PlaneRing& ring,
+                                  std::size_t region) const;
+
   Parameters parameters_;
   bool project_points_ = false;
+  bool separate_patches_ = false;
+  bool simplify_contours_ = false;
+  OutlineParameters outline_;
+  CreaseParameters crease_;
+  /// Regions before their patches were told apart; empty if they were not.
+  std::vector<pcl_mrf_planes::PlaneRegion> wholes_;
   SensorPose pose_; ///< of the last run
   pcl_mrf_planes::OrganizedPoints points_;
   pcl_mrf_planes::PlaneSegmentation result_;

@@ -115,7 +115,12 @@ std::vector<Colour> colours(const CloudFile& file)
   return result;
 }
 
-CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& labels)
+namespace {
+
+/// The cloud with a last field of 4 bytes, value(i) for the i-th point.
+template <typename Value>
+CloudFile withField(const CloudFile& file, const std::string& name,
+                    std::uint8_t datatype, const Value& value_of)
 {
   const pcl::PCLPointCloud2& from = file.cloud;
   CloudFile result = {{}, file.origin, file.orientation, file.format};
@@ -134,15 +139,15 @@ CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& l
     to.fields.push_back(field);
   };
   for (const auto& field : from.fields)
-    if (field.name != LABEL && field.name != "_") {
+    if (field.name != name && field.name != "_") {
       kept.push_back(field);
       place(field);
     }
-  pcl::PCLPointField label;
-  label.name = LABEL;
-  label.datatype = pcl::PCLPointField::UINT32;
-  label.count = 1;
-  place(label);
+  pcl::PCLPointField last;
+  last.name = name;
+  last.datatype = datatype;
+  last.count = 1;
+  place(last);
 
   to.point_step = offset;
   to.row_step = offset * to.width;
@@ -153,10 +158,24 @@ CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& l
     for (std::size_t k = 0; k < kept.size(); ++k)
       std::memcpy(target + to.fields[k].offset, source + kept[k].offset,
                   sizeOf(kept[k]));
-    const std::uint32_t value = labels[i].label;
+    const auto value = value_of(i);
     std::memcpy(target + to.fields.back().offset, &value, sizeof value);
   }
   return result;
+}
+
+} // namespace
+
+CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& labels)
+{
+  return withField(file, LABEL, pcl::PCLPointField::UINT32,
+                   [&](std::size_t i) -> std::uint32_t { return labels[i].label; });
+}
+
+CloudFile withConfidence(const CloudFile& file, const std::vector<float>& confidence)
+{
+  return withField(file, "confidence", pcl::PCLPointField::FLOAT32,
+                   [&](std::size_t i) { return confidence[i]; });
 }
 
 } // namespace pcl_mrf_planes::io

@@ -92,6 +92,7 @@ template <typename Fill>
 void MRFPlaneSegmentation<PointT>::run(const Fill& fill)
 {
   result_ = {};
+  wholes_.clear();
   if (!initCompute()) // has said why
     return;
   try {
@@ -103,6 +104,8 @@ void MRFPlaneSegmentation<PointT>::run(const Fill& fill)
       result_ = pcl_mrf_planes::segmentPlanes(points_, parameters_);
       auto& stages = result_.report.stage_ms;
       stages.emplace(stages.begin(), "points", reading.count());
+      if (separate_patches_)
+        separatePatches();
       fill();
     }
   }
@@ -149,11 +152,12 @@ bool MRFPlaneSegmentation<PointT>::checkInput() const
               getClassName(), input_->size());
     return false;
   }
-  const std::string complaint = parameters_.validate();
-  if (!complaint.empty()) {
-    PCL_ERROR("[pcl::%s::segment] %s.\n", getClassName(), complaint.c_str());
-    return false;
-  }
+  for (const std::string& complaint :
+       {parameters_.validate(), outline_.validate(), crease_.validate()})
+    if (!complaint.empty()) {
+      PCL_ERROR("[pcl::%s::segment] %s.\n", getClassName(), complaint.c_str());
+      return false;
+    }
   return true;
 }
 
@@ -333,6 +337,8 @@ void MRFPlaneSegmentation<PointT>::fillRegions(
     PlanarRegions& regions, std::vector<PointIndices>& boundaries) const
 {
   boundaries = contours();
+  const std::vector<RegionOutline> shapes =
+      simplify_contours_ ? outlines() : std::vector<RegionOutline>();
   for (std::size_t k = 0; k < result_.regions.size(); ++k) {
     const auto& region = result_.regions[k];
     const Eigen::Vector4d model = coefficients(region.plane);
@@ -349,6 +355,8 @@ void MRFPlaneSegmentation<PointT>::fillRegions(
       }
       contour.push_back(point);
     }
+    if (simplify_contours_ && !shapes[k].patches.empty())
+      contour = toContour(shapes[k].patches.front().outer);
     const Eigen::Vector3d centroid = pose_.rotation * region.centroid + pose_.origin;
     const Eigen::Matrix3d covariance =
         pose_.rotation * region.covariance * pose_.rotation.transpose();
@@ -360,6 +368,8 @@ void MRFPlaneSegmentation<PointT>::fillRegions(
 }
 
 } // namespace pcl
+
+#include <pcl_mrf_planes/impl/mrf_plane_analysis.hpp>
 
 #define PCL_INSTANTIATE_MRFPlaneSegmentation(T)                                        \
   template class PCL_EXPORTS pcl::MRFPlaneSegmentation<T>;

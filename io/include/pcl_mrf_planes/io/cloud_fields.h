@@ -27,4 +27,8 @@ std::vector<Colour> colours(const CloudFile& file);
  */
 CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& labels);
 
+/** \brief The same cloud with a last field confidence (float); a field of that name is
+ * dropped, and so is padding. \param[in] confidence a number for each point */
+CloudFile withConfidence(const CloudFile& file, const std::vector<float>& confidence);
+
 } // namespace pcl_mrf_planes::io

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_mrf_planes/label_confidence.h>
+
+#include <pcl_mrf_planes/belief_gap.h>
+#include <pcl_mrf_planes/plane_field.h>
+
+#include "adaptive/label_gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+/// Gaps of the beliefs in units of energy, equation (6).
+std::vector<float> paperGaps(const OrganizedPoints& points,
+                             const std::vector<Plane>& planes,
+                             const Parameters& parameters)
+{
+  const PlaneField field(points, planes, parameters);
+  const GridField grid = field.toGridField();
+  BeliefPropagation propagation(grid, parameters.number_of_threads);
+  propagation.iterate(parameters.iterations);
+  std::vector<float> gaps;
+  gaps.reserve(points.size());
+  for (const std::uint16_t gap : beliefGaps(grid, propagation))
+    gaps.push_back(static_cast<float>(gap / field.unitsPerEnergy()));
+  return gaps;
+}
+
+/// Median price of two different planes at the same depth.
+double typicalPrice(const std::vector<Plane>& planes, const Parameters& parameters)
+{
+  if (parameters.smoothness == Smoothness::POTTS)
+    return parameters.gamma;
+  std::vector<double> prices;
+  for (std::size_t a = 0; a < planes.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      prices.push_back(dissimilarity(planes[a], planes[b], parameters.beta));
+  if (prices.empty())
+    return 1.0;
+  const auto middle = prices.begin() + static_cast<std::ptrdiff_t>(prices.size() / 2);
+  std::nth_element(prices.begin(), middle, prices.end());
+  return *middle;
+}
+
+/// 1 - exp(-g / 2s), from a table with lines between its entries: right to 1e-4.
+void gapsToConfidence(const OrganizedPoints& points, double price,
+                      std::vector<float>& gaps)
+{
+  constexpr std::size_t STEPS = 512;
+  constexpr float MOST = 10.0f; // exponents
+  std::vector<float> table;
+  for (std::size_t k = 0; k <= STEPS + 1; ++k)
+    table.push_back(1.0f - std::exp(-MOST * static_cast<float>(k) / STEPS));
+  const auto scale = static_cast<float>(
+      STEPS / (static_cast<double>(MOST) * std::max(2.0 * price, 1e-9)));
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const float place = std::min(gaps[i] * scale, static_cast<float>(STEPS));
+    const auto k = static_cast<std::size_t>(static_cast<int>(place));
+    const float share = place - static_cast<float>(k);
+    const float value = table[k] + share * (table[k + 1] - table[k]);
+    gaps[i] = points.valid[i] != 0 ? std::min(value, 1.0f) : 0.0f;
+  }
+}
+
+} // namespace
+
+std::vector<float> labelConfidence(const OrganizedPoints& points,
+                                   const PlaneSegmentation& result,
+                                   const Parameters& parameters)
+{
+  if (parameters.method == Method::ADAPTIVE) {
+    std::vector<float> gaps =
+        adaptive::labelGaps(points, result.regions, result.labels, parameters);
+    gapsToConfidence(points, parameters.adaptive.label_change, gaps);
+    return gaps;
+  }
+  std::vector<Plane> planes;
+  for (const PlaneModel& model : result.clusters.planes)
+    planes.push_back(model.plane);
+  if (planes.empty())
+    return std::vector<float>(points.size(), 0.0f);
+  std::vector<float> gaps = paperGaps(points, planes, parameters);
+  gapsToConfidence(points, typicalPrice(planes, parameters), gaps);
+  return gaps;
+}
+
+} // namespace pcl_mrf_planes

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_mrf_planes/plane_creases.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+/// Noise that the points of a border may have about the line, in rms distances.
+constexpr double NOISE_WIDTH = 3.0;
+
+using Pair = std::pair<std::size_t, std::size_t>;
+
+/// Points on either side of the border of two regions.
+using Borders = std::map<Pair, std::vector<Eigen::Vector3d>>;
+
+/// Walks along rows and columns and notes where the label changes.
+class BorderFinder {
+public:
+  BorderFinder(const OrganizedPoints& points, const std::vector<std::uint16_t>& labels,
+               int reach)
+  : points_(points)
+  , labels_(labels)
+  , reach_(reach)
+  {}
+
+  Borders find()
+  {
+    // The last point of a plane in the row, and in each column.
+    std::vector<int> above(static_cast<std::size_t>(points_.width), NOTHING);
+    int here = 0;
+    for (int y = 0; y < points_.height; ++y) {
+      int left = NOTHING;
+      for (int& up : above) {
+        if (labels_[static_cast<std::size_t>(here)] != 0) {
+          compare(left, here, 1);
+          compare(up, here, points_.width);
+          left = up = here;
+        }
+        ++here;
+      }
+    }
+    return std::move(borders_);
+  }
+
+private:
+  static constexpr int NOTHING = -1;
+
+  void compare(int last, int here, int step)
+  {
+    if (last != NOTHING &&
+        labels_[static_cast<std::size_t>(last)] !=
+            labels_[static_cast<std::size_t>(here)] &&
+        here - last <= (reach_ + 1) * step)
+      note(last, here);
+  }
+
+  void note(int a, int b)
+  {
+    const std::size_t first = labels_[static_cast<std::size_t>(a)] - 1U;
+    const std::size_t second = labels_[static_cast<std::size_t>(b)] - 1U;
+    std::vector<Eigen::Vector3d>& border = borders_[std::minmax(first, second)];
+    border.push_back(point(a));
+    border.push_back(point(b));
+  }
+
+  Eigen::Vector3d point(int index) const
+  {
+    const auto i = static_cast<std::size_t>(index);
+    return {points_.x[i], points_.y[i], points_.z[i]};
+  }
+
+  const OrganizedPoints& points_;
+  const std::vector<std::uint16_t>& labels_;
+  int reach_;
+  Borders borders_;
+};
+
+/// Cuts what lies on a line where nothing does for too long.
+std::vector<std::pair<double, double>> piecesOf(std::vector<double>& places,
+                                                const CreaseParameters& parameters,
+                                                std::vector<int>& counts)
+{
+  std::sort(places.begin(), places.end());
+  std::vector<std::pair<double, double>> pieces;
+  for (std::size_t begin = 0; begin < places.size();) {
+    std::size_t end = begin + 1;
+    while (end < places.size() && places[end] - places[end - 1] <= parameters.max_gap)
+      ++end;
+    if (static_cast<int>(end - begin) >= parameters.min_points) {
+      pieces.emplace_back(places[begin], places[end - 1]);
+      counts.push_back(static_cast<int>(end - begin));
+    }
+    begin = end;
+  }
+  return pieces;
+}
+
+void addCreases(const std::vector<PlaneRegion>& regions, const Pair& pair,
+                const std::vector<Eigen::Vector3d>& border,
+                const CreaseParameters& parameters, std::vector<PlaneCrease>& creases)
+{
+  const PlaneRegion& a = regions[pair.first];
+  const PlaneRegion& b = regions[pair.second];
+  PlaneCrease crease;
+  crease.first = pair.first;
+  crease.second = pair.second;
+  crease.angle = normalAngle(a.plane, b.plane);
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+  if (std::min(crease.angle, M_PI - crease.angle) < parameters.min_angle ||
+      !intersectPlanes(a.plane, b.plane, border.front(), origin, direction))
+    return;
+  const double tolerance =
+      std::max(parameters.tolerance, NOISE_WIDTH * std::max(a.rms, b.rms));
+  std::vector<double> places;
+  for (const Eigen::Vector3d& p : border) {
+    const double place = direction.dot(p - origin);
+    if ((p - origin - place * direction).norm() <= tolerance)
+      places.push_back(place);
+  }
+  // Of a convex edge each face lies behind the other one's plane.
+  crease.convex = a.plane.distance(b.centroid) + b.plane.distance(a.centroid) < 0.0;
+  std::vector<int> counts;
+  const auto pieces = piecesOf(places, parameters, counts);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    crease.start = origin + pieces[k].first * direction;
+    crease.end = origin + pieces[k].second * direction;
+    crease.points = counts[k];
+    creases.push_back(crease);
+  }
+}
+
+} // namespace
+
+std::string CreaseParameters::validate() const
+{
+  // Written so that NaN fails.
+  if (!(min_angle >= 0.0 && min_angle <= M_PI / 2))
+    return "the least angle of creases must be 0 to 90 degrees";
+  if (!(tolerance > 0.0) || !(max_gap > 0.0))
+    return "tolerance and gap of creases must be more than 0 metres";
+  if (reach < 0 || min_points < 1)
+    return "creases reach over 0 points or more, and need 1 point or more";
+  return {};
+}
+
+std::vector<PlaneCrease> findCreases(const OrganizedPoints& points,
+                                     const std::vector<PlaneRegion>& regions,
+                                     const CreaseParameters& parameters)
+{
+  const std::vector<std::uint16_t> labels = regionLabels(points, regions);
+  const Borders borders = BorderFinder(points, labels, parameters.reach).find();
+  std::vector<PlaneCrease> creases;
+  for (const auto& [pair, border] : borders)
+    addCreases(regions, pair, border, parameters, creases);
+  return creases;
+}
+
+PlaneCrease inCloudFrame(const PlaneCrease& crease, const SensorPose& pose)
+{
+  PlaneCrease out = crease;
+  out.start = pose.rotation * crease.start + pose.origin;
+  out.end = pose.rotation * crease.end + pose.origin;
+  return out;
+}
+
+double normalAngle(const Plane& a, const Plane& b)
+{
+  return std::atan2(a.normal.cross(b.normal).norm(), a.normal.dot(b.normal));
+}
+
+double planeDistance(const PlaneRegion& a, const PlaneRegion& b)
+{
+  return (std::abs(a.plane.distance(b.centroid)) +
+          std::abs(b.plane.distance(a.centroid))) /
+         2.0;
+}
+
+bool intersectPlanes(const Plane& a, const Plane& b, const Eigen::Vector3d& near,
+                     Eigen::Vector3d& point, Eigen::Vector3d& direction)
+{
+  constexpr double PARALLEL = 1e-6;
+  const Eigen::Vector3d across = a.normal.cross(b.normal);
+  const double sine = across.norm();
+  if (!(sine > PARALLEL))
+    return false;
+  direction = across / sine;
+  // near + s n_a + t n_b on both planes.
+  const double cosine = a.normal.dot(b.normal);
+  const double da = a.distance(near);
+  const double db = b.distance(near);
+  const double squared_sine = sine * sine;
+  point = near - (da - cosine * db) / squared_sine * a.normal -
+          (db - cosine * da) / squared_sine * b.normal;
+  return true;
+}
+
+} // namespace pcl_mrf_planes

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_mrf_planes/plane_uncertainty.h>
+
+#include <pcl_mrf_planes/scatter_matrix.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+constexpr std::size_t FEWEST_POINTS = 4;
+/// Spread of points across the narrow side of a plane, over that along its normal, that
+/// makes it a plane.
+constexpr double NARROWEST = 2.0;
+/// The same over the long side: less is a line.
+constexpr double THINNEST = 1e-3;
+/// Least noise at 1 m, growing with distance: what float coordinates leave.
+constexpr double LEAST_SIGMA = 2e-7;
+/// Blocks that the correlation of all regions counts as beside a region's own.
+constexpr double POOLED_BLOCKS = 30.0;
+/// Least and most of a block that may be its plane's doing.
+constexpr double FEWEST_IN_BLOCK = 8.0;
+constexpr double LARGEST_LEVERAGE = 0.5;
+/// Median of chi-square with one degree of freedom.
+constexpr double MEDIAN_CHI_SQUARE = 0.4549364;
+
+/// Sums over the points of a region in one block of the image.
+struct Block {
+  double n = 0, u = 0, v = 0; ///< points, and their places in the plane
+  double distance = 0;        ///< sum of the signed distances
+  double variance = 0;        ///< sum of the noise variances
+};
+
+/// What the points of a region say about its plane.
+struct Evidence {
+  PlaneUncertainty result;
+  double n = 0; ///< points
+  Eigen::Vector3d centroid;
+  Eigen::Matrix2d spread; ///< n times the covariance in the plane less the noise, m^2
+  Eigen::Matrix3d noise;  ///< sum w w^t e^2
+  std::vector<double> ratios; ///< of blocks: squared sum over its expected value
+};
+
+/// Side of the blocks: many in an image, and wider than noise is correlated.
+int blockSide(const OrganizedPoints& points)
+{
+  return std::clamp(std::min(points.width / 20, points.height / 15), 8, 32);
+}
+
+/// Sums up a region.
+class RegionSums {
+public:
+  RegionSums(const OrganizedPoints& points, const UncertaintyNoise& noise)
+  : points_(points)
+  , noise_(noise)
+  , side_(blockSide(points))
+  , columns_((points.width + side_ - 1) / side_)
+  , blocks_(static_cast<std::size_t>(columns_) *
+            static_cast<std::size_t>((points.height + side_ - 1) / side_))
+  {
+    for (int x = 0; x < points.width; ++x)
+      block_column_.push_back(x / side_);
+  }
+
+  Evidence add(const PlaneRegion& region)
+  {
+    Evidence evidence;
+    const bool good = fit(region, evidence);
+    evidence.result.valid = good;
+    if (!good)
+      return evidence;
+    std::fill(blocks_.begin(), blocks_.end(), Block());
+    sum(region, evidence);
+    compareBlocks(evidence);
+    return evidence;
+  }
+
+private:
+  /// The plane of least squares in its own axes.
+  bool fit(const PlaneRegion& region, Evidence& out) const
+  {
+    const auto n = static_cast<double>(region.indices.size());
+    out.n = n;
+    out.centroid = out.result.centroid = region.centroid;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(region.covariance);
+    const Eigen::Vector3d& values = axes.eigenvalues();
+    out.result.basis = axes.eigenvectors().rightCols<2>();
+    out.result.plane.normal = axes.eigenvectors().col(0);
+    out.result.plane.d = -out.result.plane.normal.dot(region.centroid);
+    out.result.plane.orientTowardsOrigin();
+    const double least = std::max(values[0], 0.0);
+    out.spread = n * (values.tail<2>().array() - least).matrix().asDiagonal();
+    return region.indices.size() >= FEWEST_POINTS && values.allFinite() &&
+           values[1] > NARROWEST * NARROWEST * least &&
+           values[1] > THINNEST * THINNEST * values[2];
+  }
+
+  void sum(const PlaneRegion& region, Evidence& out)
+  {
+    const Eigen::Vector3d t1 = out.result.basis.col(0);
+    const Eigen::Vector3d t2 = out.result.basis.col(1);
+    const Plane& plane = out.result.plane;
+    const double u0 = t1.dot(out.centroid);
+    const double v0 = t2.dot(out.centroid);
+    const double unbias = out.n / (out.n - 3.0); // three numbers were fitted
+    double s11 = 0, s12 = 0, s22 = 0, s1 = 0, s2 = 0, s = 0;
+    // Indices ascend: the row is known without a division.
+    int row = 0;
+    int row_start = 0;
+    Block* blocks = blocks_.data();
+    for (const int index : region.indices) {
+      if (index - row_start >= points_.width) {
+        row = index / points_.width;
+        row_start = row * points_.width;
+        blocks = &blocks_[firstBlock(row)];
+      }
+      const auto i = static_cast<std::size_t>(index);
+      const Eigen::Vector3d p(points_.x[i], points_.y[i], points_.z[i]);
+      const double u = t1.dot(p) - u0;
+      const double v = t2.dot(p) - v0;
+      const double r = plane.distance(p);
+      const double variance = varianceOf(i, p, r * r * unbias, plane);
+      s11 += variance * u * u;
+      s12 += variance * u * v;
+      s22 += variance * v * v;
+      s1 += variance * u;
+      s2 += variance * v;
+      s += variance;
+      Block& block = blocks[block_column_[static_cast<std::size_t>(index - row_start)]];
+      block.n += 1;
+      block.u += u;
+      block.v += v;
+      block.distance += r;
+      block.variance += variance;
+    }
+    out.noise << s11, s12, s1, s12, s22, s2, s1, s2, s;
+  }
+
+  std::size_t firstBlock(int row) const
+  {
+    const int block = row / side_ * columns_;
+    return static_cast<std::size_t>(block);
+  }
+
+  /// Variance along the normal: a ray of length |p| meets the plane at n . p = -d.
+  double varianceOf(std::size_t i, const Eigen::Vector3d& p, double squared_distance,
+                    const Plane& plane) const
+  {
+    const double least = LEAST_SIGMA * LEAST_SIGMA * p.squaredNorm();
+    if (!noise_.stated)
+      return squared_distance + least;
+    const double depth =
+        std::max(std::abs(static_cast<double>(points_.depth(i))), 1e-6);
+    const double sigma = noise_.model.sigma(depth) * plane.d / depth;
+    return sigma * sigma + least;
+  }
+
+  void compareBlocks(Evidence& out) const
+  {
+    for (const Block& b : blocks_) {
+      if (b.n < FEWEST_IN_BLOCK)
+        continue;
+      const double leverage =
+          (b.n / out.n) +
+          (b.u * b.u / out.spread(0, 0) + b.v * b.v / out.spread(1, 1)) / b.n;
+      if (leverage < LARGEST_LEVERAGE)
+        out.ratios.push_back(b.distance * b.distance / (b.variance * (1.0 - leverage)));
+    }
+  }
+
+  const OrganizedPoints& points_;
+  const UncertaintyNoise& noise_;
+  int side_;
+  int columns_;
+  std::vector<Block> blocks_;
+  std::vector<int> block_column_; ///< of each column of the image
+};
+
+/// Points per independent one of all regions, by the median: a few that are not flat have
+/// no say.
+double pooledCorrelation(const std::vector<Evidence>& all)
+{
+  std::vector<double> ratios;
+  for (const Evidence& evidence : all)
+    ratios.insert(ratios.end(), evidence.ratios.begin(), evidence.ratios.end());
+  if (ratios.empty())
+    return 1.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle / MEDIAN_CHI_SQUARE;
+}
+
+double ownCorrelation(const Evidence& evidence, double pooled)
+{
+  double sum = POOLED_BLOCKS * pooled;
+  for (const double ratio : evidence.ratios)
+    sum += ratio;
+  const double blocks = POOLED_BLOCKS + static_cast<double>(evidence.ratios.size());
+  return std::max(1.0, sum / blocks);
+}
+
+/// d of (a, b, c, d) over d of (alpha, beta, delta).
+Eigen::Matrix<double, 4, 3> jacobian(const Eigen::Matrix<double, 3, 2>& basis)
+{
+  Eigen::Matrix<double, 4, 3> j = Eigen::Matrix<double, 4, 3>::Zero();
+  j.topLeftCorner<3, 2>() = basis;
+  j(3, 2) = 1.0;
+  return j;
+}
+
+/// Errors at the centroid as errors of the offset from the origin.
+Eigen::Matrix3d toOrigin(const Eigen::Vector2d& centroid)
+{
+  Eigen::Matrix3d l = Eigen::Matrix3d::Identity();
+  l.row(2).head<2>() = -centroid.transpose();
+  return l;
+}
+
+/// Expected (alpha, beta) of the error. A point that the noise moves by e along the normal
+/// moves by -e p / d along the plane (p from the sensor): the products no longer cancel.
+Eigen::Vector2d biasOf(const Evidence& evidence, const Eigen::Vector2d& centroid)
+{
+  const double d = evidence.result.plane.d;
+  if (!(d > 1e-9))
+    return Eigen::Vector2d::Zero();
+  const Eigen::Vector2d moments =
+      evidence.noise.topRightCorner<2, 1>() + evidence.noise(2, 2) * centroid;
+  return evidence.spread.diagonal().cwiseInverse().cwiseProduct(moments) / d;
+}
+
+PlaneUncertainty finish(const Evidence& evidence, double pooled)
+{
+  PlaneUncertainty out = evidence.result;
+  if (!out.valid) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    out.minimal = Eigen::Vector3d::Constant(infinite).asDiagonal();
+    out.at_centroid = out.minimal;
+    out.covariance = Eigen::Vector4d::Constant(infinite).asDiagonal();
+    return out;
+  }
+  out.points_per_independent = ownCorrelation(evidence, pooled);
+  const Eigen::Vector2d centroid = out.basis.transpose() * evidence.centroid;
+  const Eigen::Vector3d inverse(1.0 / evidence.spread(0, 0),
+                                1.0 / evidence.spread(1, 1), 1.0 / evidence.n);
+  out.at_centroid = out.points_per_independent *
+                    (inverse.asDiagonal() * evidence.noise * inverse.asDiagonal());
+  Eigen::Vector3d bias = Eigen::Vector3d::Zero();
+  bias.head<2>() = biasOf(evidence, centroid);
+  const Eigen::Matrix3d l = toOrigin(centroid);
+  const Eigen::Matrix<double, 4, 3> j = jacobian(out.basis);
+  out.minimal = l * out.at_centroid * l.transpose();
+  out.covariance = j * out.minimal * j.transpose();
+  out.bias = j * (l * bias);
+  return out;
+}
+
+} // namespace
+
+Plane PlaneUncertainty::unbiased() const
+{
+  Plane result;
+  const Eigen::Vector3d normal = plane.normal - bias.head<3>();
+  result.normal = normal.normalized();
+  result.d = (plane.d - bias[3]) / normal.norm();
+  return result;
+}
+
+double PlaneUncertainty::squaredDistance(const Plane& other) const
+{
+  if (!valid)
+    return 0.0;
+  const Plane mine = unbiased();
+  const double sign = mine.normal.dot(other.normal) < 0.0 ? -1.0 : 1.0;
+  Eigen::Vector3d error;
+  error.head<2>() = basis.transpose() * (sign * other.normal - mine.normal);
+  error[2] = sign * other.distance(centroid) - mine.distance(centroid);
+  return error.dot(at_centroid.ldlt().solve(error));
+}
+
+UncertaintyNoise UncertaintyNoise::of(const Parameters& parameters)
+{
+  UncertaintyNoise noise;
+  noise.stated =
+      parameters.method == Method::ADAPTIVE && !parameters.adaptive.estimate_noise;
+  noise.model = parameters.noise;
+  return noise;
+}
+
+std::vector<PlaneUncertainty>
+planeUncertainties(const OrganizedPoints& points,
+                   const std::vector<PlaneRegion>& regions,
+                   const UncertaintyNoise& noise)
+{
+  RegionSums sums(points, noise);
+  std::vector<Evidence> all;
+  all.reserve(regions.size());
+  for (const PlaneRegion& region : regions)
+    all.push_back(sums.add(region));
+  const double pooled = pooledCorrelation(all);
+  std::vector<PlaneUncertainty> result;
+  result.reserve(all.size());
+  for (const Evidence& evidence : all)
+    result.push_back(finish(evidence, pooled));
+  return result;
+}
+
+PlaneUncertainty inCloudFrame(const PlaneUncertainty& uncertainty,
+                              const SensorPose& pose)
+{
+  PlaneUncertainty out = uncertainty;
+  out.plane.normal = pose.rotation * uncertainty.plane.normal;
+  out.plane.d = uncertainty.plane.d - out.plane.normal.dot(pose.origin);
+  out.basis = pose.rotation * uncertainty.basis;
+  out.centroid = pose.rotation * uncertainty.centroid + pose.origin;
+  Eigen::Matrix4d move = Eigen::Matrix4d::Identity();
+  move.topLeftCorner<3, 3>() = pose.rotation;
+  move.row(3).head<3>() = -(pose.rotation.transpose() * pose.origin).transpose();
+  out.bias = move * uncertainty.bias;
+  if (!uncertainty.valid) // infinite: nothing to move
+    return out;
+  const Eigen::Matrix3d l = toOrigin(out.basis.transpose() * pose.origin);
+  out.minimal = l * uncertainty.minimal * l.transpose();
+  out.covariance = move * uncertainty.covariance * move.transpose();
+  return out;
+}
+
+} // namespace pcl_mrf_planes

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "polygon_simplification.h"
+
+// Coordinates stay as they are, as newer versions of Boost have it.
+#define BOOST_GEOMETRY_NO_ROBUSTNESS
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/linestring.hpp>
+#include <boost/geometry/geometries/multi_point.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+namespace bg = boost::geometry;
+using Point = bg::model::d2::point_xy<double>;
+using Line = bg::model::linestring<Point>;
+using Polygon = bg::model::polygon<Point, false>; // counterclockwise, closed
+
+Polygon toBoost(const FlatPolygon& polygon)
+{
+  Polygon out;
+  const auto fill = [](const FlatRing& ring, auto& to) {
+    for (const Eigen::Vector2d& corner : ring)
+      to.emplace_back(corner.x(), corner.y());
+    if (!ring.empty())
+      to.push_back(to.front());
+  };
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+    if (k == 0)
+      fill(polygon[k], out.outer());
+    else
+      fill(polygon[k], out.inners().emplace_back());
+  return out;
+}
+
+double twiceArea(const FlatRing& ring)
+{
+  double sum = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Eigen::Vector2d& a = ring[k];
+    const Eigen::Vector2d& b = ring[(k + 1) % ring.size()];
+    sum += a.x() * b.y() - a.y() * b.x();
+  }
+  return sum;
+}
+
+std::size_t farthest(const FlatRing& ring, const Eigen::Vector2d& from)
+{
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < ring.size(); ++k)
+    if ((ring[k] - from).squaredNorm() > (ring[best] - from).squaredNorm())
+      best = k;
+  return best;
+}
+
+Eigen::Vector2d middleOf(const FlatRing& ring)
+{
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : ring)
+    sum += corner;
+  return sum / static_cast<double>(ring.size());
+}
+
+/// Corners from which and to which the border is simplified piece by piece.
+std::vector<std::size_t> anchorsOf(const FlatRing& ring,
+                                   const std::vector<std::uint8_t>& fixed)
+{
+  std::vector<std::size_t> anchors;
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    if (fixed[k] != 0)
+      anchors.push_back(k);
+  if (anchors.size() < 2) { // corners that are in no danger
+    const std::size_t first = farthest(ring, middleOf(ring));
+    anchors.insert(anchors.end(), {first, farthest(ring, ring[first])});
+    std::sort(anchors.begin(), anchors.end());
+    anchors.erase(std::unique(anchors.begin(), anchors.end()), anchors.end());
+  }
+  return anchors;
+}
+
+FlatRing simplifyRing(const FlatRing& ring, const std::vector<std::uint8_t>& fixed,
+                      double tolerance)
+{
+  const std::vector<std::size_t> anchors = anchorsOf(ring, fixed);
+  FlatRing out;
+  for (std::size_t a = 0; a < anchors.size(); ++a) {
+    const std::size_t end =
+        a + 1 < anchors.size() ? anchors[a + 1] : anchors[0] + ring.size();
+    Line piece;
+    for (std::size_t k = anchors[a]; k <= end; ++k) {
+      const Eigen::Vector2d& corner = ring[k % ring.size()];
+      piece.emplace_back(corner.x(), corner.y());
+    }
+    Line simple;
+    bg::simplify(piece, simple, tolerance);
+    for (std::size_t k = 0; k + 1 < simple.size(); ++k)
+      out.emplace_back(simple[k].x(), simple[k].y());
+  }
+  return out;
+}
+
+/// Turns the rings as they should be, and drops holes that are too small.
+void arrange(FlatPolygon& polygon, FixedCorners& fixed, double min_hole_area)
+{
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const double area = twiceArea(polygon[k]) / 2;
+    if (k > 0 && std::abs(area) < min_hole_area)
+      continue;
+    if ((area > 0) != (k == 0)) {
+      std::reverse(polygon[k].begin(), polygon[k].end());
+      std::reverse(fixed[k].begin(), fixed[k].end());
+    }
+    if (kept != k) {
+      polygon[kept] = std::move(polygon[k]);
+      fixed[kept] = std::move(fixed[k]);
+    }
+    ++kept;
+  }
+  polygon.resize(kept);
+  fixed.resize(kept);
+}
+
+} // namespace
+
+FlatPolygon simplifyPolygon(FlatPolygon polygon, const FixedCorners& fixed_corners,
+                            double tolerance, double min_hole_area)
+{
+  constexpr int HALVINGS = 8;
+  FixedCorners fixed = fixed_corners;
+  arrange(polygon, fixed, min_hole_area);
+  for (int k = 0; k <= HALVINGS; ++k, tolerance = k < HALVINGS ? tolerance / 2 : 0.0) {
+    FlatPolygon simple;
+    for (std::size_t r = 0; r < polygon.size(); ++r)
+      simple.push_back(simplifyRing(polygon[r], fixed[r], tolerance));
+    if (isValidPolygon(simple))
+      return simple;
+  }
+  FlatPolygon hull = {convexHull(polygon.front())};
+  return isValidPolygon(hull) ? hull : FlatPolygon();
+}
+
+FlatRing convexHull(const FlatRing& corners)
+{
+  bg::model::multi_point<Point> all;
+  for (const Eigen::Vector2d& corner : corners)
+    all.emplace_back(corner.x(), corner.y());
+  Polygon hull;
+  bg::convex_hull(all, hull);
+  FlatRing out;
+  for (std::size_t k = 0; k + 1 < hull.outer().size(); ++k)
+    out.emplace_back(hull.outer()[k].x(), hull.outer()[k].y());
+  return out;
+}
+
+double polygonArea(const FlatPolygon& polygon)
+{
+  return bg::area(toBoost(polygon));
+}
+
+bool isValidPolygon(const FlatPolygon& polygon)
+{
+  return !polygon.empty() && bg::is_valid(toBoost(polygon));
+}
+
+} // namespace pcl_mrf_planes

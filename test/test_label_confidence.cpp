@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reference/grid_problem.h"
+#include "reference/inputs.h"
+
+#include <pcl_mrf_planes/belief_gap.h>
+#include <pcl_mrf_planes/label_confidence.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace pcl_mrf_planes {
+namespace {
+
+/// Least energies of a chain with each label at each site, by going both ways.
+std::vector<std::vector<std::int64_t>> minMarginals(const reference::GridProblem& chain)
+{
+  const int n = chain.width();
+  const int labels = chain.labels();
+  const auto cost = [&](int x, int y, int a, int b) {
+    return chain.connected(x, 0, y, 0) ? chain.price(x, 0, y, 0, a, b) : 0;
+  };
+  std::vector<std::vector<std::int64_t>> best(
+      static_cast<std::size_t>(n),
+      std::vector<std::int64_t>(static_cast<std::size_t>(labels), 0));
+  for (const bool forward : {true, false}) {
+    std::vector<std::int64_t> before(static_cast<std::size_t>(labels), 0);
+    for (int k = 0; k < n; ++k) {
+      const int x = forward ? k : n - 1 - k;
+      std::vector<std::int64_t> here;
+      for (int l = 0; l < labels; ++l) {
+        std::int64_t least = k == 0 ? 0 : std::numeric_limits<std::int64_t>::max();
+        for (int m = 0; k > 0 && m < labels; ++m)
+          least = std::min(least, before[static_cast<std::size_t>(m)] +
+                                      cost(x, forward ? x - 1 : x + 1, l, m));
+        here.push_back(least + chain.data(x, 0, l));
+        best[static_cast<std::size_t>(x)][static_cast<std::size_t>(l)] +=
+            forward ? here.back() : least;
+      }
+      before = here;
+    }
+  }
+  return best;
+}
+
+TEST(BeliefGapTest, OnChainsItIsTheGapOfTheMinMarginals)
+{
+  scenes::Random random(3);
+  for (int run = 0; run < 60; ++run) {
+    const int width = random.integer(1, 12);
+    const int labels = random.integer(1, 5);
+    const GridField field =
+        reference::randomField(random, width, 1, labels, EdgeModel::SOFT_THRESHOLD);
+    BeliefPropagation propagation(field);
+    propagation.iterate(2 * width + 2);
+    const auto gaps = beliefGaps(field, propagation);
+    ASSERT_EQ(gaps.size(), static_cast<std::size_t>(width));
+    const auto exact = minMarginals(reference::GridProblem(field));
+    for (std::size_t x = 0; x < gaps.size(); ++x) {
+      std::vector<std::int64_t> costs = exact[x];
+      std::sort(costs.begin(), costs.end());
+      if (labels == 1) {
+        EXPECT_EQ(gaps[x], 65535);
+      }
+      else {
+        EXPECT_EQ(gaps[x], costs[1] - costs[0]) << "site " << x << " of run " << run;
+      }
+    }
+  }
+}
+
+class ConfidenceTest : public testing::TestWithParam<Profile> {
+protected:
+  Parameters parameters_ = Parameters::fromProfile(GetParam());
+};
+
+INSTANTIATE_TEST_SUITE_P(Profiles, ConfidenceTest,
+                         testing::Values(Profile::DEFAULT, Profile::PAPER));
+
+TEST_P(ConfidenceTest, IsAShareAndNothingForInvalidPoints)
+{
+  for (const auto& [width, height] :
+       std::vector<std::pair<int, int>>{{1, 1}, {1, 9}, {7, 1}, {37, 29}, {160, 120}}) {
+    const OrganizedPoints points = reference::toPoints(reference::takePicture(
+        "room", width, height, 2, scenes::SensorNoise::kinect()));
+    const auto confidence =
+        labelConfidence(points, segmentPlanes(points, parameters_), parameters_);
+    ASSERT_EQ(confidence.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ASSERT_TRUE(confidence[i] >= 0.0f && confidence[i] <= 1.0f) << confidence[i];
+      if (points.valid[i] == 0) {
+        ASSERT_EQ(confidence[i], 0.0f);
+      }
+    }
+  }
+}
+
+TEST_P(ConfidenceTest, IsLessAtACreaseThanInTheMiddleOfAWall)
+{
+  scenes::View view = scenes::corner();
+  view.camera.resize(160, 120);
+  const auto frame =
+      scenes::render(view.scene, view.camera, scenes::SensorNoise::gaussian(0.005), 1);
+  const OrganizedPoints points = reference::toPoints(frame);
+  const PlaneSegmentation result = segmentPlanes(points, parameters_);
+  ASSERT_GE(result.regions.size(), 2U);
+  const auto confidence = labelConfidence(points, result, parameters_);
+  double inside = 0;
+  double at_border = 0;
+  double inside_count = 0;
+  double border_count = 0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const bool border = result.labels[i - 1] != result.labels[i] ||
+                        result.labels[i + 1] != result.labels[i];
+    (border ? at_border : inside) += confidence[i];
+    (border ? border_count : inside_count) += 1;
+  }
+  EXPECT_LT(at_border / border_count, 0.9 * inside / inside_count);
+}
+
+/// Whether each valid point has the label of the true plane that most of its label's points
+/// have, beside its confidence.
+std::vector<std::pair<float, bool>> judge(const scenes::SceneFrame& frame,
+                                          const OrganizedPoints& points,
+                                          const PlaneSegmentation& result,
+                                          const std::vector<float>& confidence)
+{
+  std::map<int, std::map<int, int>> votes;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (result.labels[i] != 0 && frame.labels[i] != 0)
+      ++votes[result.labels[i]][frame.labels[i]];
+  std::map<int, int> meant;
+  for (const auto& [label, counts] : votes)
+    meant[label] = std::max_element(
+                       counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; })
+                       ->first;
+  std::vector<std::pair<float, bool>> judged;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points.valid[i] != 0)
+      judged.emplace_back(confidence[i], meant[result.labels[i]] == frame.labels[i]);
+  return judged;
+}
+
+TEST(LabelConfidenceTest, TheMoreConfidentTheMoreOftenRight)
+{
+  const Parameters parameters;
+  std::vector<std::pair<float, bool>> all;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const auto frame = reference::takePicture("room", 320, 240, seed,
+                                              scenes::SensorNoise::kinect(2.0));
+    const OrganizedPoints points = reference::toPoints(frame);
+    const PlaneSegmentation result = segmentPlanes(points, parameters);
+    const auto judged =
+        judge(frame, points, result, labelConfidence(points, result, parameters));
+    all.insert(all.end(), judged.begin(), judged.end());
+  }
+  std::sort(all.begin(), all.end());
+  constexpr std::size_t BINS = 5;
+  std::vector<double> right(BINS, 0.0);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    right[i * BINS / all.size()] +=
+        all[i].second ? static_cast<double>(BINS) / static_cast<double>(all.size())
+                      : 0.0;
+  for (std::size_t k = 1; k < BINS; ++k)
+    EXPECT_GT(right[k], right[k - 1] - 0.005) << "fifth " << k;
+  EXPECT_LT(right.front(), 0.9);
+  EXPECT_GT(right.back(), 0.97);
+}
+
+} // namespace
+} // namespace pcl_mrf_planes
