@@ -91,6 +91,8 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
   field.height = points.height;
   field.blocks = findCandidates(regions, pyramid[0], field.width, field.height,
                                 parameters.support_reach);
+  field.weight.reserve(
+      field.blocks.count.size()); // pages that are not used cost nothing
   field.data.reserve(field.blocks.count.size() * static_cast<std::size_t>(SIDE));
   FieldBuilder builder(points, regions, pyramid, noise, parameters, field);
   for (int row = 0; row < field.blocks.rows; ++row)

@@ -285,22 +285,92 @@ Numbers leastLabels(const Beliefs& total, std::size_t count,
   return label;
 }
 
-/// Writes one label for all valid points of a row of a block.
-void writeRow(std::uint16_t label, const std::uint8_t* valid, std::size_t count,
-              std::uint16_t* out)
-{
-  for (std::size_t k = 0; k < count; ++k)
-    out[k] = static_cast<std::uint16_t>(label * valid[k]);
-}
+/// Writes labels block by block, neighbours of one settled label together.
+class LabelWriter {
+public:
+  LabelWriter(const CandidateField& field, const OrganizedPoints& points,
+              const Passes& propagation)
+  : labels(points.size())
+  , f_(field)
+  , points_(points)
+  , propagation_(propagation)
+  , width_(static_cast<std::size_t>(field.width))
+  {}
 
-void writeRow(Numbers label, const std::uint8_t* valid, std::size_t count,
-              std::uint16_t* out)
-{
-  std::uint16_t each[SIDE];
-  std::memcpy(each, &label, sizeof(each));
-  for (std::size_t k = 0; k < count; ++k)
-    out[k] = static_cast<std::uint16_t>(each[k] * valid[k]);
-}
+  void write()
+  {
+    for (int row = 0; row < f_.blocks.rows; ++row)
+      for (int column = 0; column < f_.blocks.columns;) {
+        if (const std::size_t block = f_.blocks.at(column, row); isActive(block)) {
+          writeActive(block, column, row);
+          ++column;
+          continue;
+        }
+        const int end = endOfSettled(column, row);
+        writeSettled(column, end, row);
+        column = end;
+      }
+  }
+
+  std::vector<std::uint16_t> labels;
+
+private:
+  bool isActive(std::size_t block) const { return f_.number[block] != SETTLED; }
+
+  /// The first block of a row of them that has not the settled label of the first one.
+  int endOfSettled(int column, int row) const
+  {
+    const std::uint16_t label = f_.blocks.labelsOf(f_.blocks.at(column, row))[0];
+    while (++column < f_.blocks.columns) {
+      const std::size_t block = f_.blocks.at(column, row);
+      if (isActive(block) || f_.blocks.labelsOf(block)[0] != label)
+        break;
+    }
+    return column;
+  }
+
+  void writeSettled(int column, int end, int row)
+  {
+    const std::uint16_t label = f_.blocks.labelsOf(f_.blocks.at(column, row))[0];
+    const std::size_t first = static_cast<std::size_t>(column) * SIDE;
+    const std::size_t last = std::min(static_cast<std::size_t>(end) * SIDE, width_);
+    for (std::size_t y = top(row); y < bottom(row); ++y) {
+      const std::uint8_t* valid = &points_.valid[y * width_];
+      std::uint16_t* out = &labels[y * width_];
+      for (std::size_t x = first; x < last; ++x)
+        out[x] = static_cast<std::uint16_t>(label * valid[x]);
+    }
+  }
+
+  void writeActive(std::size_t block, int column, int row)
+  {
+    const std::size_t count = f_.blocks.count[block];
+    const std::uint16_t* names = f_.blocks.labelsOf(block);
+    const std::size_t first = static_cast<std::size_t>(column) * SIDE;
+    const std::size_t columns = std::min(SIDE, width_ - first);
+    Beliefs total;
+    std::uint16_t label[SIDE];
+    for (std::size_t y = top(row); y < bottom(row); ++y) {
+      propagation_.beliefs(f_.dataRow(f_.number[block], y % SIDE), count, total);
+      const Numbers best = leastLabels(total, count, names);
+      std::memcpy(label, &best, sizeof(label));
+      const std::size_t i = y * width_ + first;
+      for (std::size_t k = 0; k < columns; ++k)
+        labels[i + k] = static_cast<std::uint16_t>(label[k] * points_.valid[i + k]);
+    }
+  }
+
+  static std::size_t top(int row) { return static_cast<std::size_t>(row) * SIDE; }
+  std::size_t bottom(int row) const
+  {
+    return std::min(top(row) + SIDE, static_cast<std::size_t>(f_.height));
+  }
+
+  const CandidateField& f_;
+  const OrganizedPoints& points_;
+  const Passes& propagation_;
+  std::size_t width_;
+};
 
 } // namespace
 
@@ -312,28 +382,9 @@ std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
     propagation.run(true);
     propagation.run(false);
   }
-  std::vector<std::uint16_t> labels(points.size());
-  Beliefs total;
-  const auto width = static_cast<std::size_t>(field.width);
-  for (int y = 0; y < field.height; ++y)
-    for (int column = 0; column < field.blocks.columns; ++column) {
-      const std::size_t block = field.blocks.at(column, y / static_cast<int>(SIDE));
-      const std::uint16_t* names = field.blocks.labelsOf(block);
-      const std::size_t x = static_cast<std::size_t>(column) * SIDE;
-      const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      const std::size_t count = std::min(SIDE, width - x);
-      const std::size_t a = field.number[block];
-      if (a == SETTLED) {
-        writeRow(names[0], &points.valid[i], count, &labels[i]);
-        continue;
-      }
-      const std::size_t labels_here = field.blocks.count[block];
-      propagation.beliefs(field.dataRow(a, static_cast<std::size_t>(y) % SIDE),
-                          labels_here, total);
-      writeRow(leastLabels(total, labels_here, names), &points.valid[i], count,
-               &labels[i]);
-    }
-  return labels;
+  LabelWriter writer(field, points, propagation);
+  writer.write();
+  return std::move(writer.labels);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -36,12 +36,23 @@ void EdgeWeights::fill(const BlockPlace& place, double range, BlockWeights& out)
     if (place.row + r + 1 < points_.height)
       out.down[row] = edges(i, i + static_cast<std::size_t>(width), place.columns);
     if (place.column > 0)
-      out.left.v[row] = edges(i - 1, i, 1).v[0];
+      out.left.v[row] = edge(i - 1, i);
   }
   if (place.row > 0) {
     const std::size_t i = place.pointAt(0, width);
     out.above = edges(i - static_cast<std::size_t>(width), i, place.columns);
   }
+}
+
+inline std::int16_t EdgeWeights::edge(std::size_t i, std::size_t j) const
+{
+  const auto least = static_cast<float>(parameters_.min_weight);
+  const float step = (depth_[i] - depth_[j]) * per_step_;
+  const float falling = 1.0f / (1.0f + step * step);
+  const float share = falling > least ? falling : least;
+  const int is_edge = points_.valid[i] & points_.valid[j];
+  return static_cast<std::int16_t>(static_cast<std::int32_t>(price_ * share + 0.5f) &
+                                   -is_edge);
 }
 
 /// Between points i and j and those that follow them.
@@ -58,15 +69,8 @@ BlockRow EdgeWeights::edges(std::size_t i, std::size_t j, int count) const
 inline void EdgeWeights::fillEdges(std::size_t i, std::size_t j, std::size_t count,
                                    std::int16_t* weight) const
 {
-  const auto least = static_cast<float>(parameters_.min_weight);
-  for (std::size_t k = 0; k < count; ++k) {
-    const float step = (depth_[i + k] - depth_[j + k]) * per_step_;
-    const float falling = 1.0f / (1.0f + step * step);
-    const float share = falling > least ? falling : least;
-    const int edge = points_.valid[i + k] & points_.valid[j + k];
-    weight[k] = static_cast<std::int16_t>(
-        static_cast<std::int32_t>(price_ * share + 0.5f) & -edge);
-  }
+  for (std::size_t k = 0; k < count; ++k)
+    weight[k] = edge(i + k, j + k);
 }
 
 } // namespace pcl_mrf_planes::adaptive

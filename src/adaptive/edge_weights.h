@@ -19,6 +19,7 @@ public:
   void fill(const BlockPlace& place, double range, BlockWeights& out);
 
 private:
+  std::int16_t edge(std::size_t i, std::size_t j) const;
   BlockRow edges(std::size_t i, std::size_t j, int count) const;
   void fillEdges(std::size_t i, std::size_t j, std::size_t count,
                  std::int16_t* weight) const;

@@ -330,8 +330,9 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
       TileSums& sums = cells.sums[cells.at(c, r)];
       if (sums.n < 1)
         continue;
-      const double sigma =
-          noise.small(sums.centroid().norm()) * factors[squares.at(c / 4, r / 4)];
+      const double range =
+          std::sqrt(sums.x * sums.x + sums.y * sums.y + sums.z * sums.z) / sums.n;
+      const double sigma = noise.small(range) * factors[squares.at(c / 4, r / 4)];
       sums.noise = sums.n * sigma * sigma;
     }
   for (std::size_t l = 1; l < pyramid.size(); ++l)

@@ -210,9 +210,13 @@ HWY_INLINE void FitAll(D d, const TileSums* sums, std::size_t count,
   Table<D, RESULTS> out;
   for (std::size_t i = 0; i < count; i += lanes) {
     const std::size_t used = count - i < lanes ? count - i : lanes;
-    for (std::size_t lane = 0; lane < used; ++lane)
+    bool any = false; // in a cropped cloud whole stretches have no points
+    for (std::size_t lane = 0; lane < used; ++lane) {
       FillLane(sums[i + lane], lane, in);
-    FitTable(d, in, out);
+      any |= sums[i + lane].n >= 3;
+    }
+    if (any)
+      FitTable(d, in, out);
     for (std::size_t lane = 0; lane < used; ++lane)
       ReadLane(out, lane, sums[i + lane], planes[i + lane]);
   }
