@@ -144,6 +144,21 @@ TEST(AdaptiveSceneTest, ACornerIsThreePlanes)
     }
 }
 
+TEST(AdaptiveSceneTest, FastLabelsAllPointsNearlyAsWell)
+{
+  for (const char* scene : {"corner", "step", "room"}) {
+    const SceneFrame frame =
+        reference::takePicture(scene, 640, 480, 3, SensorNoise::kinect());
+    const PlaneSegmentation best = segmented(frame);
+    const PlaneSegmentation fast =
+        segmented(frame, Parameters::fromProfile(Profile::FAST));
+    expectSound(reference::toPoints(frame), fast);
+    EXPECT_GE(shareRight(frame, fast), shareRight(frame, best) - 0.05) << scene;
+    EXPECT_GE(shareOfNone(frame, fast), shareOfNone(frame, best) - 0.1) << scene;
+    EXPECT_LE(shareOfStripes(reference::toPoints(frame), fast), 0.01) << scene;
+  }
+}
+
 TEST(AdaptiveSceneTest, AStepOfTwentyCentimetresIsTwoPlanes)
 {
   for (const SensorNoise& noise : {SensorNoise::none(), SensorNoise::kinect()}) {
