@@ -16,12 +16,35 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Keys are names of options, values what the options take: numbers stay numbers.
+/// What the report holds beside planes depends on these: one made without them is not the
+/// one that is asked for.
+void addRegionParameters(const RegionOptions& regions, Json& result)
+{
+  if (regions.separate_patches)
+    result["separate_patches"] = true;
+  if (regions.outlines) {
+    result["outlines"] = true;
+    result["outline_tolerance"] = regions.outline.tolerance;
+    result["min_hole_area"] = regions.outline.min_hole_area;
+  }
+  if (regions.creases) {
+    result["creases"] = true;
+    result["crease_tolerance"] = regions.crease.tolerance;
+    result["crease_angle_rad"] = regions.crease.min_angle;
+  }
+  if (regions.confidence)
+    result["confidence"] = true;
+  if (regions.project)
+    result["project"] = *regions.project == ProjectionWay::NORMAL ? "normal" : "ray";
+}
+
 Json parametersJson(const Options& options)
 {
   Json result;
   result["profile"] = options.profile;
   if (options.wrap)
     result["wrap"] = true;
+  addRegionParameters(options.regions, result);
   std::vector<ParameterOption> used = parameterOptions(options.parameters.method);
   const std::vector<ParameterOption>& common = commonParameterOptions();
   used.insert(used.end(), common.begin(), common.end());

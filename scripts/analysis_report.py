@@ -23,8 +23,8 @@ import matplotlib.pyplot as plt
 import numpy
 from PIL import Image
 
-from accuracy_report import PAGE, replace_block
-from accuracy_tables import COLOURS, SETS, markdown_table, save_plot
+from accuracy_report import PAGE
+from accuracy_tables import COLOURS, SETS, markdown_table, replace_block, save_plot
 
 BINS = 20
 RUNS = 9
@@ -191,7 +191,7 @@ def main():
     for name, text in (('confidence', confidence_block(points)),
                        ('analysis-cost', cost_block(reports)),
                        ('uncertainty', uncertainty_block(shares))):
-        page = replace_block(page, name, text)
+        page = replace_block(page, name, text, PAGE)
     temporary = PAGE.with_suffix('.md.new')
     temporary.write_text(page)
     os.replace(temporary, PAGE)

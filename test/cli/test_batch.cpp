@@ -98,6 +98,11 @@ TEST_F(Batch, ResumeDoesWhatIsMissingOrWasDoneOtherwise)
       << "the table is whole all the same";
   EXPECT_THAT(batch({"--resume", "--min-points", "77"}).out, HasSubstr("3 done"))
       << "other parameters give other results";
+  EXPECT_THAT(batch({"--resume", "--min-points", "77", "--outlines"}).out,
+              HasSubstr("3 done"))
+      << "a report without outlines is not the one that is asked for";
+  EXPECT_THAT(batch({"--resume", "--min-points", "77", "--outlines"}).out,
+              HasSubstr("0 done, 3 there before"));
   EXPECT_THAT(batch({"--resume", "--write", "ply"}).out, HasSubstr("3 done"))
       << "an output that is not there yet";
 }
