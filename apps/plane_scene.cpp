@@ -13,6 +13,7 @@
 #include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -20,6 +21,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace {
@@ -193,6 +195,14 @@ void writeCloud(const std::string& path, const std::string& format,
 {
   const pcl::PointCloud<pcl::PointXYZRGB> cloud = toCloud(frame);
   writeAtomically(path, [&](const std::string& file) {
+    // PCL maps binary files into memory: a disk that fills up would end the program.
+    std::error_code unknown;
+    const auto space =
+        std::filesystem::space(std::filesystem::absolute(file).parent_path(), unknown);
+    if (!unknown && space.available < 2 * cloud.size() * sizeof(pcl::PointXYZRGB))
+      throw std::runtime_error("cannot write '" + path +
+                               "': the disk is nearly full; " +
+                               "make room or name a file elsewhere");
     pcl::PCDWriter writer;
     constexpr int DIGITS = 9; // enough to give every float back
     const int status = format == "ascii"    ? writer.writeASCII(file, cloud, DIGITS)

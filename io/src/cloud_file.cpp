@@ -121,19 +121,26 @@ int asciiPrecision(const pcl::PCLPointCloud2& cloud)
                     : std::numeric_limits<float>::max_digits10;
 }
 
+/// Through a stream: PCL maps the binary files that it writes itself into memory, and a disk
+/// that fills up then ends the program by a signal.
 int writeByPcl(const std::string& path, const CloudFile& file, PcdFormat format)
 {
   pcl::PCDWriter writer;
-  switch (format) {
-  case PcdFormat::ASCII:
+  if (format == PcdFormat::ASCII)
     return writer.writeASCII(path, file.cloud, file.origin, file.orientation,
                              asciiPrecision(file.cloud));
-  case PcdFormat::BINARY:
-    return writer.writeBinary(path, file.cloud, file.origin, file.orientation);
-  case PcdFormat::BINARY_COMPRESSED:
-    break;
+  std::ofstream stream(path, std::ios::binary);
+  stream.imbue(std::locale::classic());
+  if (format == PcdFormat::BINARY) {
+    stream << writer.generateHeaderBinary(file.cloud, file.origin, file.orientation)
+           << "DATA binary\n";
+    stream.write(reinterpret_cast<const char*>(file.cloud.data.data()),
+                 static_cast<std::streamsize>(file.cloud.data.size()));
   }
-  return writer.writeBinaryCompressed(path, file.cloud, file.origin, file.orientation);
+  else if (writer.writeBinaryCompressed(stream, file.cloud, file.origin,
+                                        file.orientation) != 0)
+    return -1;
+  return stream.flush() ? 0 : -1;
 }
 
 /// Checks that a file just written is whole, which PCL does not when a disk is full.

@@ -213,6 +213,22 @@ TEST_F(BadFiles, AFullDeviceIsAnErrorAndStaysWhereItIs)
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
+TEST_F(BadFiles, WhatDoesNotFitOnTheDiskIsAnErrorInEveryFormat)
+{
+  for (const char* format : {"ascii", "binary", "binary_compressed"}) {
+    write("out.pcd", "old");
+    // No file may grow beyond a kilobyte, as on a disk that fills up.
+    const Outcome outcome =
+        run("/bin/sh", {"-c", "trap '' XFSZ; ulimit -f 2; exec \"$0\" \"$@\"",
+                        PCL_MRF_PLANES_SEGMENTATION_APP, path("binary.pcd"),
+                        path("out.pcd"), "--format", format});
+    EXPECT_EQ(outcome.status, 1) << format << ": " << outcome.err;
+    EXPECT_NE(outcome.err.find("check the space on the disk"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(read("out.pcd"), "old") << "what was there before stays";
+  }
+}
+
 TEST_F(BadFiles, AReadOnlyOutputStays)
 {
   if (::geteuid() == 0)
