@@ -97,8 +97,7 @@ void BlockCosts::lookUpNoise(const BlockPlace& place, int row,
       const float per_sigma =
           1.0f / std::sqrt(static_cast<float>(scale.growth) * variance +
                            static_cast<float>(scale.bend));
-      std::fill_n(&per_sigma_[s][static_cast<std::size_t>(half * CELL)], CELL,
-                  per_sigma);
+      std::fill_n(per_sigma_[s].begin() + half * CELL, CELL, per_sigma);
     }
   }
 }
@@ -115,8 +114,8 @@ BlockCosts::costs(const LabelScale& plane,
   for (std::size_t k = 0; k < SIDE; ++k) {
     const float distance = std::abs(a * p.x[k] + b * p.y[k] + c * p.z[k] + d);
     const float sigmas = distance * per_sigma[k];
-    cost[k] = static_cast<std::int16_t>(
-        static_cast<std::int32_t>((sigmas < most ? sigmas : most) * scale + 0.5f));
+    cost[k] =
+        static_cast<std::int16_t>(nearest((sigmas < most ? sigmas : most) * scale));
   }
   return gather(cost);
 }

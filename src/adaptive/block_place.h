@@ -33,6 +33,14 @@ inline BlockRow::Numbers gather(const std::int16_t* numbers)
   return v;
 }
 
+/// The nearest whole number to one that is not negative: the compiler does several at once,
+/// as it cannot with the functions of the library.
+inline std::int32_t nearest(float number)
+{
+  constexpr float HALF = 0.5f;
+  return static_cast<std::int32_t>(number + HALF);
+}
+
 /// Costs in the whole numbers of a field.
 struct CostUnits {
   float per_sigma = 1.0f;

@@ -51,8 +51,7 @@ inline std::int16_t EdgeWeights::edge(std::size_t i, std::size_t j) const
   const float falling = 1.0f / (1.0f + step * step);
   const float share = falling > least ? falling : least;
   const int is_edge = points_.valid[i] & points_.valid[j];
-  return static_cast<std::int16_t>(static_cast<std::int32_t>(price_ * share + 0.5f) &
-                                   -is_edge);
+  return static_cast<std::int16_t>(nearest(price_ * share) & -is_edge);
 }
 
 /// Between points i and j and those that follow them.
