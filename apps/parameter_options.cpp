@@ -212,7 +212,8 @@ std::vector<ParameterOption> adaptiveOptions()
       real("min-weight", &A::min_weight, "SHARE", "of that price left across a step"),
       integer("passes", &A::passes, "COUNT",
               "belief propagation down the image and up again"),
-      integer("rounds", &A::rounds, "COUNT", "of labelling and refitting")};
+      integer("rounds", &A::rounds, "COUNT",
+              "of labelling and refitting, all but the last on cells of 4x4 points")};
 }
 
 /// What Method::PAPER takes.

@@ -23,14 +23,7 @@ void OrganizedPoints::resize(int new_width, int new_height)
 void OrganizedPoints::load(int new_width, int new_height, const float* first,
                            std::size_t stride)
 {
-  width = new_width;
-  height = new_height;
-  const std::size_t count =
-      static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height);
-  x.resize(count);
-  y.resize(count);
-  z.resize(count);
-  valid.resize(count);
+  const std::size_t count = setSize(new_width, new_height);
   std::size_t i =
       loadPoints(first, stride, count, {x.data(), y.data(), z.data(), valid.data()});
   for (; i < count; ++i) {

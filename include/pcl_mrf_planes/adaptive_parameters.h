@@ -79,9 +79,9 @@ struct AdaptiveParameters {
       1.5; ///< price of a label change on a smooth surface, sigmas, >= 0
   double step_sigmas = 6.0; ///< depth step over which that price falls, sigmas, > 0
   double min_weight = 0.15; ///< share of the price that is left across a step, 0 to 1
-  int passes = 1; ///< of the last round, down the image and up again; those before make
-                  ///< one at most; 0 to 100000
-  int rounds = 2; ///< of labelling and refitting, 1 to 10
+  int passes = 1; ///< over the points, down the image and up again; 0 to 100000
+  int rounds = 2; ///< of labelling and refitting: the last of points, those before of
+                  ///< cells of 4x4 points; 1 to 10
   ///@}
 };
 

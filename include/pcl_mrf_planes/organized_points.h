@@ -56,14 +56,7 @@ struct OrganizedPoints {
   template <typename Point>
   void fill(int new_width, int new_height, const Point& point)
   {
-    width = new_width;
-    height = new_height;
-    const std::size_t count =
-        static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height);
-    x.resize(count);
-    y.resize(count);
-    z.resize(count);
-    valid.resize(count);
+    const std::size_t count = setSize(new_width, new_height);
     // Pointers of its own: the compiler then knows that no store moves the vectors.
     float* const xs = x.data();
     float* const ys = y.data();
@@ -116,6 +109,21 @@ struct OrganizedPoints {
 
   /** \brief Number of valid points. */
   std::size_t countValid() const;
+
+private:
+  /// Points that were there before stay. \return how many there are now
+  std::size_t setSize(int new_width, int new_height)
+  {
+    width = new_width;
+    height = new_height;
+    const std::size_t count =
+        static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height);
+    x.resize(count);
+    y.resize(count);
+    z.resize(count);
+    valid.resize(count);
+    return count;
+  }
 };
 
 } // namespace pcl_mrf_planes

@@ -28,7 +28,8 @@ struct SegmentationReport {
   double labelled_share = 0.0;          ///< of the valid points, 0 to 1
   /// Energy of the initial labels and after each iteration (parameters.compute_energy).
   std::vector<FieldEnergy> energy;
-  /// Milliseconds of each stage in order: tiles, merging, field, propagation, regions;
+  /// Milliseconds of each stage in order: tiles, merging, field, propagation, regions,
+  /// and in Method::ADAPTIVE sampling, cells and refinement where they are;
   /// MRFPlaneSegmentation puts its own "points" in front.
   std::vector<std::pair<std::string, double>> stage_ms;
 

@@ -32,7 +32,7 @@ struct CandidateBlocks {
   }
 };
 
-/// "No plane" and the planes with cells in a block or at most so many blocks away from it,
+/// "No plane" and the planes with cells in a block or at most so many cells away from it,
 /// the nearest first. O(blocks * reach^2)
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
                                int width, int height, int reach);

@@ -6,7 +6,6 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 constexpr int SIDE = CandidateBlocks::SIDE;
-constexpr double STEP_SHARE = 0.01; // of the range: a slope, not a step
 
 } // namespace
 
@@ -25,8 +24,7 @@ EdgeWeights::EdgeWeights(const OrganizedPoints& points, const NoiseLaw& noise,
 
 void EdgeWeights::fill(const BlockPlace& place, double range, BlockWeights& out)
 {
-  per_step_ = static_cast<float>(
-      1.0 / (parameters_.step_sigmas * noise_.small(range) + STEP_SHARE * range));
+  per_step_ = perStep(noise_, parameters_, range);
   const int width = points_.width;
   const bool right_edge = place.column + place.columns == width;
   for (int r = 0; r < place.rows; ++r) {
@@ -48,8 +46,7 @@ inline std::int16_t EdgeWeights::edge(std::size_t i, std::size_t j) const
 {
   const auto least = static_cast<float>(parameters_.min_weight);
   const float step = (depth_[i] - depth_[j]) * per_step_;
-  const float falling = 1.0f / (1.0f + step * step);
-  const float share = falling > least ? falling : least;
+  const float share = priceShare(step, least);
   const int is_edge = points_.valid[i] & points_.valid[j];
   return static_cast<std::int16_t>(nearest(price_ * share) & -is_edge);
 }

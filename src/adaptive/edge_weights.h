@@ -7,6 +7,22 @@
 
 namespace pcl_mrf_planes::adaptive {
 
+/// One over the step in depth at which half the price of a change is left, at such a range.
+inline float perStep(const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                     double range)
+{
+  constexpr double SLOPE = 0.01; // of the range: no step
+  return static_cast<float>(
+      1.0 / (parameters.step_sigmas * noise.small(range) + SLOPE * range));
+}
+
+/// Share of the price of a change that is left across a step of so many of those.
+inline float priceShare(float step, float least)
+{
+  const float falling = 1.0f / (1.0f + step * step);
+  return falling > least ? falling : least;
+}
+
 /** \brief Potts weights of the edges of a field: the price of a label change, which falls with
  * the step in depth down to a share of itself, so that labels change where depth does. */
 class EdgeWeights {

@@ -3,16 +3,17 @@
 
 #include "adaptive/block_costs.h"
 #include "adaptive/candidate_field.h"
+#include "adaptive/edge_weights.h"
 #include "adaptive/label_scale.h"
 #include "adaptive/noise_estimation.h"
 #include "adaptive/tile_pyramid.h"
+#include "label_runs.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -22,8 +23,8 @@ namespace {
 
 constexpr int SIDE = CandidateBlocks::SIDE;
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
-constexpr int REACH = 2;            ///< of a label from the cells that have it, cells
-constexpr double STEP_SHARE = 0.01; ///< of the range: a slope, not a step
+constexpr int REACH = 2; ///< of a label from the cells that have it, cells
+constexpr std::size_t BLOCK_LEVEL = 1; ///< tiles that are the blocks
 
 /// What the field knows of a plane, from its region.
 FittedPlane fittedPlane(const PlaneRegion& region)
@@ -112,19 +113,13 @@ private:
   /// What all points of a block share.
   void prepare(int column, int row)
   {
-    const TileLevel& cells = pyramid_[0];
-    TileSums sums;
-    for (int r = 2 * row; r < std::min(2 * row + 2, cells.rows); ++r)
-      for (int c = 2 * column; c < std::min(2 * column + 2, cells.columns); ++c)
-        sums += cells.sums[cells.at(c, r)];
+    const std::size_t block = blocks_.at(column, row);
+    const TileSums& sums = pyramid_[BLOCK_LEVEL].sums[block];
     const double range = sums.n > 0 ? sums.centroid().norm() : 1.0;
     const double variance = sums.n > 0 ? sums.noise / sums.n : 1.0;
     const auto at = static_cast<std::size_t>(column);
-    const auto per_step = static_cast<float>(
-        1.0 / (parameters_.step_sigmas * noise_.small(range) + STEP_SHARE * range));
     std::fill_n(&per_step_[at * SIDE], std::min<std::size_t>(SIDE, width_ - at * SIDE),
-                per_step);
-    const std::size_t block = blocks_.at(column, row);
+                perStep(noise_, parameters_, range));
     for (std::size_t s = 0; s < blocks_.count[block]; ++s)
       candidates_[at * SLOTS + s] = candidate(blocks_.labelsOf(block)[s], variance);
   }
@@ -159,9 +154,8 @@ private:
     const float* per_step = per_step_.data();
     for (std::size_t x = 0; x < count; ++x) {
       const float step = (a[x] - b[x]) * per_step[x];
-      const float falling = 1.0f / (1.0f + step * step);
-      const float share = falling > least ? falling : least;
-      out[x] = price * share * static_cast<float>(a_valid[x] & b_valid[x]);
+      out[x] =
+          price * priceShare(step, least) * static_cast<float>(a_valid[x] & b_valid[x]);
     }
   }
 
@@ -200,12 +194,7 @@ private:
 
   bool isAll(std::uint16_t label, std::size_t i) const
   {
-    constexpr std::uint64_t FOUR_TIMES = 0x0001000100010001U;
-    std::uint64_t words[2];
-    static_assert(sizeof(words) == SIDE * sizeof(label), "a row of a block");
-    std::memcpy(words, &labels_[i], sizeof(words));
-    const std::uint64_t all = FOUR_TIMES * label;
-    return ((words[0] ^ all) | (words[1] ^ all)) == 0;
+    return findOther(label, labels_.data(), i, i + SIDE) == i + SIDE;
   }
 
   /// data() of eight points.
