@@ -5,9 +5,9 @@
 #include <pcl_mrf_planes/plane_field.h>
 
 #include "adaptive/label_gap.h"
+#include "adaptive/label_gap_kernel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace pcl_mrf_planes {
@@ -46,24 +46,12 @@ double typicalPrice(const std::vector<Plane>& planes, const Parameters& paramete
   return *middle;
 }
 
-/// 1 - exp(-g / 2s), from a table with lines between its entries: right to 1e-4.
 void gapsToConfidence(const OrganizedPoints& points, double price,
                       std::vector<float>& gaps)
 {
-  constexpr std::size_t STEPS = 512;
-  constexpr float MOST = 10.0f; // exponents
-  std::vector<float> table;
-  for (std::size_t k = 0; k <= STEPS + 1; ++k)
-    table.push_back(1.0f - std::exp(-MOST * static_cast<float>(k) / STEPS));
-  const auto scale = static_cast<float>(
-      STEPS / (static_cast<double>(MOST) * std::max(2.0 * price, 1e-9)));
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const float place = std::min(gaps[i] * scale, static_cast<float>(STEPS));
-    const auto k = static_cast<std::size_t>(static_cast<int>(place));
-    const float share = place - static_cast<float>(k);
-    const float value = table[k] + share * (table[k + 1] - table[k]);
-    gaps[i] = points.valid[i] != 0 ? std::min(value, 1.0f) : 0.0f;
-  }
+  const double scale = 1.0 / std::max(2.0 * price, 1e-9);
+  adaptive::gapsToShares(static_cast<float>(scale), points.valid.data(), gaps.size(),
+                         gaps.data());
 }
 
 } // namespace

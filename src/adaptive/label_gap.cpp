@@ -4,17 +4,16 @@
 #include "adaptive/block_costs.h"
 #include "adaptive/candidate_field.h"
 #include "adaptive/edge_weights.h"
+#include "adaptive/label_gap_kernel.h"
 #include "adaptive/label_scale.h"
 #include "adaptive/noise_estimation.h"
 #include "adaptive/tile_pyramid.h"
-#include "label_runs.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
@@ -58,11 +57,23 @@ std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& poin
   return regions;
 }
 
-/// A label that may be had in a block, and how its data cost is computed.
-struct Candidate {
-  std::uint16_t label;
-  float a, b, c, d; ///< of its plane
-  float per_sigma;
+/// Labels of a row, and one that no point has on either side of it.
+class LabelRow {
+public:
+  explicit LabelRow(std::size_t width)
+  : labels_(1 + (width + SIDE - 1) / SIDE * SIDE + 1, OUTSIDE)
+  {}
+
+  void fill(const std::uint16_t* labels, std::size_t width)
+  {
+    std::copy_n(labels, width, labels_.begin() + 1);
+  }
+  void clear() { std::fill(labels_.begin(), labels_.end(), OUTSIDE); }
+  const std::uint16_t* at(std::size_t x) const { return &labels_[1 + x]; }
+
+private:
+  static constexpr std::uint16_t OUTSIDE = 65535; // more than a cloud can have planes
+  std::vector<std::uint16_t> labels_;
 };
 
 /// Costs of the random field around final labels.
@@ -73,15 +84,14 @@ public:
   : points_(points)
   , labels_(labels)
   , parameters_(parameters.adaptive)
-  , none_(static_cast<float>(parameters.adaptive.none_cost))
+  , costs_{static_cast<float>(parameters.adaptive.none_cost),
+           BlockCosts::MOST * static_cast<float>(parameters.adaptive.none_cost)}
   , width_(static_cast<std::size_t>(points.width))
   , pyramid_(buildTilePyramid(points, parameters_))
   , noise_(parameters_.estimate_noise
                ? estimateNoise(pyramid_, parameters_)
                : statedNoise(parameters.noise, pyramid_, parameters_))
-  , right_(width_, 0.0f)
-  , above_(width_, 0.0f)
-  , below_(width_, 0.0f)
+  , label_rows_(3, LabelRow(width_))
   {
     assignLocalNoise(pyramid_, noise_, parameters_);
     for (const PlaneRegion& region : regions) {
@@ -90,20 +100,30 @@ public:
     }
     regions_.cell_region = cellRegions(pyramid_[0], points, labels);
     blocks_ = findCandidates(regions_, pyramid_[0], points.width, points.height, REACH);
-    per_step_.resize(width_);
+    const std::size_t padded = static_cast<std::size_t>(blocks_.columns) * SIDE;
+    per_step_.resize(padded);
+    right_.assign(1 + padded, 0.0f); // the first: to the left of the image
+    above_.assign(padded, 0.0f);
+    below_.assign(padded, 0.0f);
     candidates_.resize(static_cast<std::size_t>(blocks_.columns) * SLOTS);
   }
 
   std::vector<float> find()
   {
-    std::vector<float> gaps(points_.size(), 0.0f);
+    std::vector<float> gaps(points_.size());
+    label_rows_[1].fill(labels_.data(), width_);
     for (int y = 0; y < points_.height; ++y) {
       if (y % SIDE == 0)
         for (int column = 0; column < blocks_.columns; ++column)
           prepare(column, y / SIDE);
       weigh(y);
+      if (y + 1 < points_.height)
+        label_rows_[2].fill(&labels_[static_cast<std::size_t>(y + 1) * width_], width_);
+      else
+        label_rows_[2].clear();
       for (std::size_t x = 0; x < width_; x += SIDE)
         findInRow(x, y, gaps);
+      std::rotate(label_rows_.begin(), label_rows_.begin() + 1, label_rows_.end());
       std::swap(above_, below_);
     }
     return gaps;
@@ -118,16 +138,15 @@ private:
     const double range = sums.n > 0 ? sums.centroid().norm() : 1.0;
     const double variance = sums.n > 0 ? sums.noise / sums.n : 1.0;
     const auto at = static_cast<std::size_t>(column);
-    std::fill_n(&per_step_[at * SIDE], std::min<std::size_t>(SIDE, width_ - at * SIDE),
-                perStep(noise_, parameters_, range));
+    std::fill_n(&per_step_[at * SIDE], SIDE, perStep(noise_, parameters_, range));
     for (std::size_t s = 0; s < blocks_.count[block]; ++s)
       candidates_[at * SLOTS + s] = candidate(blocks_.labelsOf(block)[s], variance);
   }
 
-  Candidate candidate(std::uint16_t label, double variance) const
+  GapCandidate candidate(std::uint16_t label, double variance) const
   {
     if (label == 0)
-      return {0, 0, 0, 0, 0, 0};
+      return {};
     const LabelScale& p = scales_[label - 1U];
     const double allowed = p.growth * variance + p.bend;
     return {label, p.a, p.b, p.c, p.d, static_cast<float>(1.0 / std::sqrt(allowed))};
@@ -136,160 +155,61 @@ private:
   /// Prices of changes to the right of and below the points of a row.
   void weigh(int y)
   {
+    const EdgePrices prices = {static_cast<float>(parameters_.label_change),
+                               static_cast<float>(parameters_.min_weight)};
     const float* here = points_.depthRow(y, depth_[0]);
     const std::uint8_t* valid = &points_.valid[static_cast<std::size_t>(y) * width_];
-    weigh(here, here + 1, valid, valid + 1, width_ - 1, right_.data());
+    edgePriceRow(prices, here, here + 1, valid, valid + 1, per_step_.data(), width_ - 1,
+                 &right_[1]);
     if (y + 1 < points_.height)
-      weigh(here, points_.depthRow(y + 1, depth_[1]), valid, valid + width_, width_,
-            below_.data());
+      edgePriceRow(prices, here, points_.depthRow(y + 1, depth_[1]), valid,
+                   valid + width_, per_step_.data(), width_, below_.data());
     else
       std::fill(below_.begin(), below_.end(), 0.0f);
-  }
-
-  void weigh(const float* a, const float* b, const std::uint8_t* a_valid,
-             const std::uint8_t* b_valid, std::size_t count, float* out) const
-  {
-    const auto least = static_cast<float>(parameters_.min_weight);
-    const auto price = static_cast<float>(parameters_.label_change);
-    const float* per_step = per_step_.data();
-    for (std::size_t x = 0; x < count; ++x) {
-      const float step = (a[x] - b[x]) * per_step[x];
-      out[x] =
-          price * priceShare(step, least) * static_cast<float>(a_valid[x] & b_valid[x]);
-    }
-  }
-
-  /// Data cost, equation (7) in sigmas.
-  float data(std::size_t i, const Candidate& c) const
-  {
-    const float distance =
-        std::abs(c.a * points_.x[i] + c.b * points_.y[i] + c.c * points_.z[i] + c.d);
-    return c.label == 0 ? none_
-                        : std::min(distance * c.per_sigma, BlockCosts::MOST * none_);
   }
 
   /// Points of one row of a block.
   void findInRow(std::size_t x, int y, std::vector<float>& gaps) const
   {
     const std::size_t i = static_cast<std::size_t>(y) * width_ + x;
-    if (allAgree(x, y, i)) {
-      findInside(x, y, i, &gaps[i]);
+    const std::size_t column = x / SIDE;
+    GapRow row = {&points_.x[i],        &points_.y[i],        &points_.z[i],
+                  label_rows_[1].at(x), label_rows_[0].at(x), label_rows_[2].at(x),
+                  &right_[1 + x],       &above_[x],           &below_[x]};
+    const GapCandidate* candidates = &candidates_[column * SLOTS];
+    const std::size_t count =
+        blocks_.count[blocks_.at(static_cast<int>(column), y / SIDE)];
+    if (x + SIDE <= width_) {
+      gapsOfEight(costs_, row, candidates, count, &gaps[i]);
       return;
     }
-    const std::size_t count = std::min<std::size_t>(SIDE, width_ - x);
-    for (std::size_t k = 0; k < count; ++k)
-      if (points_.valid[i + k] != 0)
-        gaps[i + k] = gapAt(x + k, y, i + k);
-  }
-
-  /// Whether the points of a whole row of a block and all their neighbours, none of them
-  /// outside the image, have one label.
-  bool allAgree(std::size_t x, int y, std::size_t i) const
-  {
-    return x > 0 && x + SIDE < width_ && y > 0 && y + 1 < points_.height &&
-           labels_[i - 1] == labels_[i] && labels_[i + SIDE] == labels_[i] &&
-           isAll(labels_[i], i) && isAll(labels_[i], i - width_) &&
-           isAll(labels_[i], i + width_);
-  }
-
-  bool isAll(std::uint16_t label, std::size_t i) const
-  {
-    return findOther(label, labels_.data(), i, i + SIDE) == i + SIDE;
-  }
-
-  /// data() of eight points.
-  void rowData(std::size_t i, const Candidate& c, float* cost) const
-  {
-    if (c.label == 0) {
-      std::fill_n(cost, SIDE, none_);
-      return;
-    }
-    const float* x = &points_.x[i];
-    const float* y = &points_.y[i];
-    const float* z = &points_.z[i];
-    const float most = BlockCosts::MOST * none_;
-    for (std::size_t k = 0; k < SIDE; ++k) {
-      const float sigmas =
-          std::abs(c.a * x[k] + c.b * y[k] + c.c * z[k] + c.d) * c.per_sigma;
-      cost[k] = sigmas < most ? sigmas : most;
-    }
-  }
-
-  /// The same as gapAt() where allAgree(), for eight points at once: no other label saves
-  /// anything.
-  void findInside(std::size_t x, int y, std::size_t i, float* gaps) const
-  {
-    const std::uint16_t mine = labels_[i];
-    const Candidate* candidates = &candidates_[x / SIDE * SLOTS];
-    const std::size_t count =
-        blocks_.count[blocks_.at(static_cast<int>(x) / SIDE, y / SIDE)];
-    float own[SIDE];
-    float least[SIDE];
-    std::fill_n(own, SIDE, mine == 0 ? none_ : BlockCosts::MOST * none_);
-    std::fill_n(least, SIDE, mine == 0 ? none_ : std::numeric_limits<float>::max());
-    for (std::size_t s = 0; s < count; ++s) {
-      float cost[SIDE];
-      rowData(i, candidates[s], cost);
-      if (candidates[s].label == mine)
-        std::copy_n(cost, SIDE, own);
-      else
-        for (std::size_t k = 0; k < SIDE; ++k)
-          least[k] = cost[k] < least[k] ? cost[k] : least[k];
-    }
-    for (std::size_t k = 0; k < SIDE; ++k) {
-      const float gap = least[k] - own[k] + right_[x + k - 1] + right_[x + k] +
-                        above_[x + k] + below_[x + k];
-      gaps[k] = gap > 0.0f ? gap : 0.0f;
-    }
-  }
-
-  float gapAt(std::size_t x, int y, std::size_t i) const
-  {
-    const std::uint16_t mine = labels_[i];
-    // A neighbour outside the image has weight 0, and the label of the point itself.
-    const float weights[] = {x > 0 ? right_[x - 1] : 0.0f,
-                             x + 1 < width_ ? right_[x] : 0.0f, above_[x], below_[x]};
-    const std::uint16_t others[] = {
-        x > 0 ? labels_[i - 1] : mine, x + 1 < width_ ? labels_[i + 1] : mine,
-        y > 0 ? labels_[i - width_] : mine,
-        y + 1 < points_.height ? labels_[i + width_] : mine};
-    // What a label saves where a neighbour has it as well.
-    const auto saved = [&](std::uint16_t label) {
-      float sum = 0.0f;
-      for (std::size_t k = 0; k < 4; ++k)
-        sum += others[k] == label ? weights[k] : 0.0f;
-      return sum;
-    };
-    const Candidate* candidates = &candidates_[x / SIDE * SLOTS];
-    const std::size_t count =
-        blocks_.count[blocks_.at(static_cast<int>(x) / SIDE, y / SIDE)];
-    // "No plane" stands beside a plane that was not found and fits no better.
-    float own = mine == 0 ? none_ - saved(0) : BlockCosts::MOST * none_;
-    float least = mine == 0 ? none_ : std::numeric_limits<float>::max();
-    for (std::size_t s = 0; s < count; ++s) {
-      const float cost = data(i, candidates[s]) - saved(candidates[s].label);
-      if (candidates[s].label == mine)
-        own = cost;
-      else
-        least = std::min(least, cost);
-    }
-    return std::max(0.0f, least - own);
+    const std::size_t left = width_ - x;
+    float padded[4][SIDE] = {};
+    std::copy_n(row.x, left, padded[0]);
+    std::copy_n(row.y, left, padded[1]);
+    std::copy_n(row.z, left, padded[2]);
+    row.x = padded[0];
+    row.y = padded[1];
+    row.z = padded[2];
+    gapsOfEight(costs_, row, candidates, count, padded[3]);
+    std::copy_n(padded[3], left, &gaps[i]);
   }
 
   const OrganizedPoints& points_;
   const std::vector<std::uint16_t>& labels_;
   const AdaptiveParameters& parameters_;
-  float none_;
+  GapCosts costs_;
   std::size_t width_;
   std::vector<TileLevel> pyramid_;
   NoiseLaw noise_;
   TileRegions regions_;
   std::vector<LabelScale> scales_;
   CandidateBlocks blocks_;
-  // of the row of blocks, and the row of points, at hand
+  // of the row of blocks, and the row of points, at hand; as wide as whole blocks
   std::vector<float> per_step_;
-  std::vector<Candidate> candidates_; ///< SLOTS a block
+  std::vector<GapCandidate> candidates_; ///< SLOTS a block
   std::vector<float> right_, above_, below_;
+  std::vector<LabelRow> label_rows_; ///< above, here, below
   std::vector<float> depth_[2];
 };
 

@@ -11,7 +11,7 @@
 namespace pcl_mrf_planes::adaptive {
 
 /// What the second best label of each point would cost more than the one it has, in sigmas;
-/// 0 where another would be better, and for invalid points. The random field's costs with
+/// 0 where another would be better; of no meaning for invalid points. The random field's costs with
 /// the final planes and labels; see labelConfidence().
 /// \param[in] labels 0 no plane, k regions[k - 1]
 std::vector<float> labelGaps(const OrganizedPoints& points,
