@@ -3,6 +3,8 @@
 
 #include <pcl_mrf_planes/scatter_matrix.h>
 
+#include "plane_uncertainty_kernel.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -63,10 +65,8 @@ public:
   , columns_((points.width + side_ - 1) / side_)
   , blocks_(static_cast<std::size_t>(columns_) *
             static_cast<std::size_t>((points.height + side_ - 1) / side_))
-  {
-    for (int x = 0; x < points.width; ++x)
-      block_column_.push_back(x / side_);
-  }
+  , stated_(static_cast<std::size_t>(side_))
+  {}
 
   Evidence add(const PlaneRegion& region)
   {
@@ -103,62 +103,86 @@ private:
 
   void sum(const PlaneRegion& region, Evidence& out)
   {
-    const Eigen::Vector3d t1 = out.result.basis.col(0);
-    const Eigen::Vector3d t2 = out.result.basis.col(1);
-    const Plane& plane = out.result.plane;
-    const double u0 = t1.dot(out.centroid);
-    const double v0 = t2.dot(out.centroid);
-    const double unbias = out.n / (out.n - 3.0); // three numbers were fitted
-    double s11 = 0, s12 = 0, s22 = 0, s1 = 0, s2 = 0, s = 0;
-    // Indices ascend: the row is known without a division.
+    const PlaneFrame frame = frameOf(out);
+    FrameSums all;
+    const std::vector<int>& indices = region.indices; // they ascend
     int row = 0;
-    int row_start = 0;
-    Block* blocks = blocks_.data();
-    for (const int index : region.indices) {
-      if (index - row_start >= points_.width) {
-        row = index / points_.width;
-        row_start = row * points_.width;
-        blocks = &blocks_[firstBlock(row)];
-      }
-      const auto i = static_cast<std::size_t>(index);
-      const Eigen::Vector3d p(points_.x[i], points_.y[i], points_.z[i]);
-      const double u = t1.dot(p) - u0;
-      const double v = t2.dot(p) - v0;
-      const double r = plane.distance(p);
-      const double variance = varianceOf(i, p, r * r * unbias, plane);
-      s11 += variance * u * u;
-      s12 += variance * u * v;
-      s22 += variance * v * v;
-      s1 += variance * u;
-      s2 += variance * v;
-      s += variance;
-      Block& block = blocks[block_column_[static_cast<std::size_t>(index - row_start)]];
-      block.n += 1;
-      block.u += u;
-      block.v += v;
-      block.distance += r;
-      block.variance += variance;
+    for (std::size_t k = 0; k < indices.size();) {
+      while (indices[k] >= (row + 1) * points_.width)
+        row = indices[k] / points_.width;
+      const int column = indices[k] - row * points_.width;
+      const auto end = std::min(points_.width, (column / side_ + 1) * side_);
+      const std::size_t count = neighbours(indices, k, end - column);
+      const FrameSums sums = sumRun(frame, indices[k], count, out.result.plane);
+      addBlock(sums, count, row / side_ * columns_ + column / side_);
+      for (std::size_t s = 0; s < FrameSums::COUNT; ++s)
+        all.sum[s] += sums.sum[s];
+      k += count;
     }
-    out.noise << s11, s12, s1, s12, s22, s2, s1, s2, s;
+    const double* s = all.sum;
+    out.noise << s[FrameSums::WUU], s[FrameSums::WUV], s[FrameSums::WU],
+        s[FrameSums::WUV], s[FrameSums::WVV], s[FrameSums::WV], s[FrameSums::WU],
+        s[FrameSums::WV], s[FrameSums::W];
   }
 
-  std::size_t firstBlock(int row) const
+  static PlaneFrame frameOf(const Evidence& evidence)
   {
-    const int block = row / side_ * columns_;
-    return static_cast<std::size_t>(block);
+    const Plane& plane = evidence.result.plane;
+    const Eigen::Vector3d right = evidence.result.basis.col(0);
+    const Eigen::Vector3d up = evidence.result.basis.col(1);
+    return {{plane.normal.x(), plane.normal.y(), plane.normal.z()},
+            plane.d,
+            {right.x(), right.y(), right.z()},
+            right.dot(evidence.centroid),
+            {up.x(), up.y(), up.z()},
+            up.dot(evidence.centroid),
+            evidence.n / (evidence.n - 3.0), // three numbers were fitted
+            LEAST_SIGMA * LEAST_SIGMA};
+  }
+
+  /// How many points from the k-th on follow each other, at most so many.
+  static std::size_t neighbours(const std::vector<int>& indices, std::size_t k,
+                                int most)
+  {
+    const std::size_t end =
+        std::min(indices.size(), k + static_cast<std::size_t>(most));
+    const int first = indices[k] - static_cast<int>(k);
+    if (indices[end - 1] == first + static_cast<int>(end - 1))
+      return end - k;
+    std::size_t n = k + 1;
+    while (indices[n] == first + static_cast<int>(n))
+      ++n;
+    return n - k;
+  }
+
+  FrameSums sumRun(const PlaneFrame& frame, int index, std::size_t count,
+                   const Plane& plane)
+  {
+    const auto i = static_cast<std::size_t>(index);
+    if (noise_.stated)
+      for (std::size_t k = 0; k < count; ++k)
+        stated_[k] = statedVariance(i + k, plane);
+    return sumInFrame(frame, &points_.x[i], &points_.y[i], &points_.z[i],
+                      noise_.stated ? stated_.data() : nullptr, count);
   }
 
   /// Variance along the normal: a ray of length |p| meets the plane at n . p = -d.
-  double varianceOf(std::size_t i, const Eigen::Vector3d& p, double squared_distance,
-                    const Plane& plane) const
+  double statedVariance(std::size_t i, const Plane& plane) const
   {
-    const double least = LEAST_SIGMA * LEAST_SIGMA * p.squaredNorm();
-    if (!noise_.stated)
-      return squared_distance + least;
     const double depth =
         std::max(std::abs(static_cast<double>(points_.depth(i))), 1e-6);
     const double sigma = noise_.model.sigma(depth) * plane.d / depth;
-    return sigma * sigma + least;
+    return sigma * sigma;
+  }
+
+  void addBlock(const FrameSums& sums, std::size_t count, int block_index)
+  {
+    Block& block = blocks_[static_cast<std::size_t>(block_index)];
+    block.n += static_cast<double>(count);
+    block.u += sums.sum[FrameSums::U];
+    block.v += sums.sum[FrameSums::V];
+    block.distance += sums.sum[FrameSums::R];
+    block.variance += sums.sum[FrameSums::W];
   }
 
   void compareBlocks(Evidence& out) const
@@ -179,7 +203,7 @@ private:
   int side_;
   int columns_;
   std::vector<Block> blocks_;
-  std::vector<int> block_column_; ///< of each column of the image
+  std::vector<double> stated_; ///< variances of the points at hand
 };
 
 /// Points per independent one of all regions, by the median: a few that are not flat have
