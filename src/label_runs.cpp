@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace pcl_mrf_planes {
 
@@ -73,6 +74,73 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
   return out;
 }
 
+std::size_t countSuccessors(const std::vector<int>& numbers, std::size_t k,
+                            std::size_t most)
+{
+  const std::size_t last = std::min(numbers.size() - k, most) - 1;
+  const auto follows = [&](std::size_t n) {
+    return numbers[k + n] - numbers[k] == static_cast<int>(n);
+  };
+  if (follows(last))
+    return last + 1;
+  std::size_t good = 0; // from here on: does not follow any more before last
+  std::size_t step = 1;
+  while (good + step < last && follows(good + step)) {
+    good += step;
+    step *= 2;
+  }
+  for (; step > 0; step /= 2)
+    if (good + step < last && follows(good + step))
+      good += step;
+  return good + 1;
+}
+
+std::vector<LabelRun> runsOfRegions(const std::vector<PlaneRegion>& regions, int width)
+{
+  std::vector<LabelRun> runs;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const std::vector<int>& indices = regions[r].indices;
+    int row_end = 0;
+    for (std::size_t k = 0; k < indices.size();) {
+      if (indices[k] >= row_end)
+        row_end = (indices[k] / width + 1) * width;
+      const std::size_t count =
+          countSuccessors(indices, k, static_cast<std::size_t>(row_end - indices[k]));
+      const auto begin = static_cast<std::size_t>(indices[k]);
+      runs.push_back({begin, begin + count, static_cast<std::uint16_t>(r + 1)});
+      k += count;
+    }
+  }
+  return runs;
+}
+
+LabelRuns regionRuns(const std::vector<PlaneRegion>& regions, int width, int height)
+{
+  const std::vector<LabelRun> runs = runsOfRegions(regions, width);
+  LabelRuns out;
+  out.width = static_cast<std::size_t>(width);
+  // Counting sort by row.
+  std::vector<std::uint32_t> row_of_run;
+  row_of_run.reserve(runs.size());
+  out.rows.assign(static_cast<std::size_t>(height) + 2, 0);
+  for (const LabelRun& run : runs) {
+    row_of_run.push_back(static_cast<std::uint32_t>(run.begin / out.width));
+    ++out.rows[row_of_run.back() + 2];
+  }
+  std::partial_sum(out.rows.begin(), out.rows.end(), out.rows.begin());
+  out.runs.resize(runs.size());
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    out.runs[out.rows[row_of_run[k] + 1]++] = runs[k];
+  out.rows.pop_back();
+  const auto at = [&](std::size_t k) {
+    return out.runs.begin() + static_cast<std::ptrdiff_t>(k);
+  };
+  for (std::size_t row = 0; row + 1 < out.rows.size(); ++row)
+    std::sort(at(out.rows[row]), at(out.rows[row + 1]),
+              [](const LabelRun& a, const LabelRun& b) { return a.begin < b.begin; });
+  return out;
+}
+
 void fillRun(const LabelRun& run, std::uint16_t label,
              std::vector<std::uint16_t>& labels)
 {
@@ -98,6 +166,7 @@ RunParts connectRuns(const LabelRuns& image)
     if (root == k) {
       parts.size.push_back(0);
       parts.first.push_back(run.begin);
+      parts.label.push_back(run.label);
     }
     parts.part_of_run.push_back(part);
     parts.size[static_cast<std::size_t>(part)] += static_cast<int>(run.end - run.begin);

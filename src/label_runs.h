@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/plane_regions.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,6 +34,18 @@ std::size_t findOther(std::uint16_t label, const std::uint16_t* labels, std::siz
 LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
                    std::uint16_t background);
 
+/// How many numbers follow each other, one more each time, from the k-th on; at most so many.
+/// Numbers ascend. O(log of the result)
+std::size_t countSuccessors(const std::vector<int>& numbers, std::size_t k,
+                            std::size_t most);
+
+/// Runs of regions, whose points ascend, region by region; the label is the region's number,
+/// from 1. O(runs log points)
+std::vector<LabelRun> runsOfRegions(const std::vector<PlaneRegion>& regions, int width);
+
+/// The same row by row.
+LabelRuns regionRuns(const std::vector<PlaneRegion>& regions, int width, int height);
+
 /// Writes one label over all points of a run.
 void fillRun(const LabelRun& run, std::uint16_t label,
              std::vector<std::uint16_t>& labels);
@@ -41,6 +55,7 @@ struct RunParts {
   std::vector<int> part_of_run;
   std::vector<int> size;          ///< points of each part
   std::vector<std::size_t> first; ///< first point of each part
+  std::vector<std::uint16_t> label;
 };
 
 /// Joins runs of the same label that lie above one another. O(runs)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_mrf_planes/region_contour.h>
+#include "label_runs.h"
 
-#include <cstddef>
 #include <vector>
 
 namespace pcl_mrf_planes {
@@ -21,8 +20,8 @@ using PixelRings = std::vector<std::vector<PixelCorner>>;
 
 /// Rings of all parts, from edge to edge. Where pixels of a part meet by their corners only
 /// the ring stays with the background: so no ring meets itself, and rings meet in single
-/// corners at most, as polygons of the OGC simple features have it. O(points)
-std::vector<PixelRings> tracePixelRings(const ConnectedParts& parts, int width,
-                                        int height);
+/// corners at most, as polygons of the OGC simple features have it. O(runs + corners), and memory for every point
+/// \param[in] parts connectRuns(image)
+std::vector<PixelRings> tracePixelRings(const LabelRuns& image, const RunParts& parts);
 
 } // namespace pcl_mrf_planes

@@ -143,9 +143,8 @@ std::vector<std::uint16_t> regionLabels(const OrganizedPoints& points,
                                         const std::vector<PlaneRegion>& regions)
 {
   std::vector<std::uint16_t> image(points.size(), 0);
-  for (std::size_t k = 0; k < regions.size(); ++k)
-    for (const int i : regions[k].indices)
-      image[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(k + 1);
+  for (const LabelRun& run : runsOfRegions(regions, points.width))
+    fillRun(run, run.label, image);
   return image;
 }
 

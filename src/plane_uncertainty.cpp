@@ -3,6 +3,7 @@
 
 #include <pcl_mrf_planes/scatter_matrix.h>
 
+#include "label_runs.h"
 #include "plane_uncertainty_kernel.h"
 
 #include <Eigen/Dense>
@@ -112,7 +113,8 @@ private:
         row = indices[k] / points_.width;
       const int column = indices[k] - row * points_.width;
       const auto end = std::min(points_.width, (column / side_ + 1) * side_);
-      const std::size_t count = neighbours(indices, k, end - column);
+      const std::size_t count =
+          countSuccessors(indices, k, static_cast<std::size_t>(end - column));
       const FrameSums sums = sumRun(frame, indices[k], count, out.result.plane);
       addBlock(sums, count, row / side_ * columns_ + column / side_);
       for (std::size_t s = 0; s < FrameSums::COUNT; ++s)
@@ -138,21 +140,6 @@ private:
             up.dot(evidence.centroid),
             evidence.n / (evidence.n - 3.0), // three numbers were fitted
             LEAST_SIGMA * LEAST_SIGMA};
-  }
-
-  /// How many points from the k-th on follow each other, at most so many.
-  static std::size_t neighbours(const std::vector<int>& indices, std::size_t k,
-                                int most)
-  {
-    const std::size_t end =
-        std::min(indices.size(), k + static_cast<std::size_t>(most));
-    const int first = indices[k] - static_cast<int>(k);
-    if (indices[end - 1] == first + static_cast<int>(end - 1))
-      return end - k;
-    std::size_t n = k + 1;
-    while (indices[n] == first + static_cast<int>(n))
-      ++n;
-    return n - k;
   }
 
   FrameSums sumRun(const PlaneFrame& frame, int index, std::size_t count,

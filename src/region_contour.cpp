@@ -30,10 +30,9 @@ ConnectedParts findConnectedParts(const std::vector<std::uint16_t>& labels, int 
         parts.part_of_point.begin() + static_cast<std::ptrdiff_t>(image.runs[k].end),
         found.part_of_run[k]);
   parts.size = found.size;
-  for (const std::size_t first : found.first) {
+  parts.label = found.label;
+  for (const std::size_t first : found.first)
     parts.first.push_back(static_cast<int>(first));
-    parts.label.push_back(labels[first]);
-  }
   return parts;
 }
 

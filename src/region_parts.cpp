@@ -37,8 +37,7 @@ std::vector<PlaneRegion> separateParts(const OrganizedPoints& points,
                                        const std::vector<PlaneRegion>& regions,
                                        int min_points, double min_area)
 {
-  std::vector<std::uint16_t> labels = regionLabels(points, regions);
-  const LabelRuns image = findRuns(labels, points.width, 0);
+  const LabelRuns image = regionRuns(regions, points.width, points.height);
   const RunParts parts = connectRuns(image);
   const std::vector<std::size_t> kept = keptParts(parts, min_points);
 
@@ -47,10 +46,10 @@ std::vector<PlaneRegion> separateParts(const OrganizedPoints& points,
   std::vector<int> region_of_part;
   for (const std::size_t part : kept) {
     new_label[part] = static_cast<std::uint16_t>(planes.size());
-    region_of_part.push_back(labels[parts.first[part]] - 1);
+    region_of_part.push_back(parts.label[part] - 1);
     planes.push_back(regions[static_cast<std::size_t>(region_of_part.back())].plane);
   }
-  std::fill(labels.begin(), labels.end(), NO_PLANE);
+  std::vector<std::uint16_t> labels(points.size(), NO_PLANE);
   for (std::size_t k = 0; k < image.runs.size(); ++k)
     fillRun(image.runs[k], new_label[static_cast<std::size_t>(parts.part_of_run[k])],
             labels);

@@ -2,10 +2,9 @@
 #include <pcl_mrf_planes/region_polygons.h>
 
 #include "corner_rays.h"
+#include "label_runs.h"
 #include "pixel_rings.h"
 #include "polygon_simplification.h"
-
-#include <pcl_mrf_planes/region_contour.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,9 +85,9 @@ public:
   Outliner(const OrganizedPoints& points, const std::vector<PlaneRegion>& regions,
            const OutlineParameters& parameters)
   : parameters_(parameters)
-  , parts_(
-        findConnectedParts(regionLabels(points, regions), points.width, points.height))
-  , rings_(tracePixelRings(parts_, points.width, points.height))
+  , image_(regionRuns(regions, points.width, points.height))
+  , parts_(connectRuns(image_))
+  , rings_(tracePixelRings(image_, parts_))
   , rays_(points)
   , parts_of_region_(regions.size())
   {
@@ -142,7 +141,8 @@ private:
   }
 
   const OutlineParameters& parameters_;
-  ConnectedParts parts_;
+  LabelRuns image_;
+  RunParts parts_;
   std::vector<PixelRings> rings_;
   CornerRays rays_;
   std::vector<std::vector<std::size_t>> parts_of_region_; ///< largest first

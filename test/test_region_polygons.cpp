@@ -5,6 +5,7 @@
 #include "polygon_simplification.h"
 
 #include <pcl_mrf_planes/plane_segmentation.h>
+#include <pcl_mrf_planes/region_contour.h>
 #include <pcl_mrf_planes/region_polygons.h>
 
 #include <gtest/gtest.h>
@@ -105,7 +106,8 @@ TEST(PixelRingsTest, RingsEncloseThePixelsAndNeverMeetThemselves)
     for (std::uint16_t& label : labels)
       label = label == NO_PLANE ? 0 : static_cast<std::uint16_t>(label + 1);
     const ConnectedParts parts = findConnectedParts(labels, width, height);
-    const auto rings = tracePixelRings(parts, width, height);
+    const LabelRuns image = findRuns(labels, width, 0);
+    const auto rings = tracePixelRings(image, connectRuns(image));
     ASSERT_EQ(rings.size(), parts.size.size());
     for (std::size_t k = 0; k < rings.size(); ++k) {
       int twice_area = 0;
