@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <utility>
 
@@ -33,33 +35,60 @@ public:
 
   Borders find()
   {
-    // The last point of a plane in the row, and in each column.
-    std::vector<int> above(static_cast<std::size_t>(points_.width), NOTHING);
-    int here = 0;
-    for (int y = 0; y < points_.height; ++y) {
-      int left = NOTHING;
-      for (int& up : above) {
-        if (labels_[static_cast<std::size_t>(here)] != 0) {
-          compare(left, here, 1);
-          compare(up, here, points_.width);
-          left = up = here;
+    const int width = points_.width;
+    for (int y = 0; y < points_.height; ++y)
+      for (int x = 0; x < width;) {
+        const int here = y * width + x;
+        if (x > 0 && x + AT_ONCE <= width && isNothing(here, y > 0)) {
+          x += AT_ONCE;
+          continue;
         }
-        ++here;
+        if (labelAt(here) != 0) {
+          look(here, 1, x);
+          look(here, width, y);
+        }
+        ++x;
       }
-    }
     return std::move(borders_);
   }
 
 private:
-  static constexpr int NOTHING = -1;
+  static constexpr int AT_ONCE = 4;
 
-  void compare(int last, int here, int step)
+  std::uint16_t labelAt(int index) const
   {
-    if (last != NOTHING &&
-        labels_[static_cast<std::size_t>(last)] !=
-            labels_[static_cast<std::size_t>(here)] &&
-        here - last <= (reach_ + 1) * step)
-      note(last, here);
+    return labels_[static_cast<std::size_t>(index)];
+  }
+
+  std::uint64_t labelsAt(int index) const
+  {
+    std::uint64_t four = 0;
+    std::memcpy(&four, &labels_[static_cast<std::size_t>(index)], sizeof(four));
+    return four;
+  }
+
+  /// Whether some points have no plane, or one that all points to the left of and above them
+  /// have as well.
+  bool isNothing(int here, bool has_above) const
+  {
+    const std::uint64_t labels = labelsAt(here);
+    return labels == 0 || (has_above && labels == labelsAt(here - 1) &&
+                           labels == labelsAt(here - points_.width));
+  }
+
+  /// Notes the nearest point of a plane so many steps back at most, if it has another label.
+  void look(int here, int step, int most)
+  {
+    most = most <= reach_ ? most : reach_ + 1;
+    int last = here;
+    for (int k = 0; k < most; ++k) {
+      last -= step;
+      if (const std::uint16_t label = labelAt(last); label != 0) {
+        if (label != labelAt(here))
+          note(last, here);
+        return;
+      }
+    }
   }
 
   void note(int a, int b)

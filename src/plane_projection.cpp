@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/plane_projection.h>
 
+#include "plane_projection_kernel.h"
+
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace pcl_mrf_planes {
+
+namespace {
+
+constexpr double GRAZING = 0.01745; // sine of a degree
+
+} // namespace
 
 Eigen::Vector3d projectPoint(const Eigen::Vector3d& point, const Plane& plane,
                              ProjectionWay way)
 {
-  constexpr double GRAZING = 0.01745; // sine of a degree
   const double facing = plane.normal.dot(point);
   if (way == ProjectionWay::RAY && std::abs(facing) > GRAZING * point.norm())
     return -plane.d / facing * point;
@@ -27,6 +35,18 @@ void projectOntoPlanes(const std::vector<PlaneRegion>& regions, ProjectionWay wa
       points.set(i, static_cast<float>(p.x()), static_cast<float>(p.y()),
                  static_cast<float>(p.z()));
     }
+}
+
+void projectPoints(const Plane& plane, const Eigen::Vector3d& origin, ProjectionWay way,
+                   const std::vector<int>& indices, std::size_t stride, float* first)
+{
+  const Eigen::Vector3d& n = plane.normal;
+  const ProjectionTarget target = {
+      {n.x(), n.y(), n.z()},
+      plane.d,
+      {origin.x(), origin.y(), origin.z()},
+      way == ProjectionWay::RAY ? GRAZING : std::numeric_limits<double>::infinity()};
+  projectPoints(target, indices.data(), indices.size(), stride, first);
 }
 
 std::vector<int> pointsOfNoPlane(const OrganizedPoints& points,

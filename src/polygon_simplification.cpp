@@ -105,6 +105,53 @@ FlatRing simplifyRing(const FlatRing& ring, const std::vector<std::uint8_t>& fix
   return out;
 }
 
+/// The corners farthest along eight directions, counterclockwise: an octagon whose inside
+/// has no corner of the hull (Akl and Toussaint, 1978).
+FlatRing farthestCorners(const FlatRing& corners)
+{
+  const Eigen::Vector2d directions[] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                        {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+  FlatRing out;
+  for (const Eigen::Vector2d& direction : directions) {
+    std::size_t best = 0;
+    double most = direction.dot(corners[0]);
+    for (std::size_t k = 1; k < corners.size(); ++k)
+      if (const double along = direction.dot(corners[k]); along > most) {
+        most = along;
+        best = k;
+      }
+    if (out.empty() || (corners[best] != out.back() && corners[best] != out.front()))
+      out.push_back(corners[best]);
+  }
+  return out;
+}
+
+/// Without the corners that lie well inside the convex hull.
+FlatRing outermost(const FlatRing& corners)
+{
+  constexpr double ROUNDING = 1e-9; // of the squared size
+  const FlatRing octagon = farthestCorners(corners);
+  double size = 0;
+  for (const Eigen::Vector2d& corner : octagon)
+    size = std::max(size, (corner - octagon[0]).squaredNorm());
+  const double least = ROUNDING * size;
+  const auto isInside = [&](const Eigen::Vector2d& p) {
+    for (std::size_t k = 0; k < octagon.size(); ++k) {
+      const Eigen::Vector2d& a = octagon[k];
+      const Eigen::Vector2d edge = octagon[(k + 1) % octagon.size()] - a;
+      const Eigen::Vector2d way = p - a;
+      if (!(edge.x() * way.y() - edge.y() * way.x() > least))
+        return false;
+    }
+    return true;
+  };
+  FlatRing out;
+  for (const Eigen::Vector2d& corner : corners)
+    if (!isInside(corner))
+      out.push_back(corner);
+  return out;
+}
+
 /// Turns the rings as they should be, and drops holes that are too small.
 void arrange(FlatPolygon& polygon, FixedCorners& fixed, double min_hole_area)
 {
@@ -148,8 +195,10 @@ FlatPolygon simplifyPolygon(FlatPolygon polygon, const FixedCorners& fixed_corne
 
 FlatRing convexHull(const FlatRing& corners)
 {
+  if (corners.empty())
+    return {};
   bg::model::multi_point<Point> all;
-  for (const Eigen::Vector2d& corner : corners)
+  for (const Eigen::Vector2d& corner : outermost(corners))
     all.emplace_back(corner.x(), corner.y());
   Polygon hull;
   bg::convex_hull(all, hull);

@@ -356,6 +356,10 @@ private:
   std::vector<RegionOutline> outlines() const;
   typename PointCloud::VectorType
   toContour(const pcl_mrf_planes::PlaneRing& ring) const;
+  /// Moves points of the cloud onto a plane with the sensor as its origin.
+  void projectPoints(const pcl_mrf_planes::Plane& plane,
+                     const std::vector<int>& indices, ProjectionWay way,
+                     PointCloud& cloud) const;
   PlanarPolygon<PointT> toPolygon(const pcl_mrf_planes::PlaneRing& ring,
                                   std::size_t region) const;
 

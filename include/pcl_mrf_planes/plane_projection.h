@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,14 @@ Eigen::Vector3d projectPoint(const Eigen::Vector3d& point, const Plane& plane,
  * without the noise of its planes. O(points) */
 void projectOntoPlanes(const std::vector<PlaneRegion>& regions, ProjectionWay way,
                        OrganizedPoints& points);
+
+/** \brief projectPoint() for the points of some indices, of a cloud whose coordinates are
+ * floats in memory: x, y, z of a point follow each other. O(indices)
+ * \param[in] origin where the plane has its origin, the sensor
+ * \param[in] stride floats from a point to the next
+ * \param[in,out] first x of the first point */
+void projectPoints(const Plane& plane, const Eigen::Vector3d& origin, ProjectionWay way,
+                   const std::vector<int>& indices, std::size_t stride, float* first);
 
 /** \brief Indices of the points that belong to no region, ascending. O(points)
  * \param[in] labels per point: 0 no plane

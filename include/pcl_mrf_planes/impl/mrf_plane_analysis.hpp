@@ -13,6 +13,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -188,6 +189,35 @@ void MRFPlaneSegmentation<PointT>::computeConfidence(
 }
 
 template <typename PointT>
+void MRFPlaneSegmentation<PointT>::projectPoints(const pcl_mrf_planes::Plane& plane,
+                                                 const std::vector<int>& indices,
+                                                 ProjectionWay way,
+                                                 PointCloud& cloud) const
+{
+  if (indices.empty())
+    return;
+  if constexpr (std::is_same_v<decltype(PointT::x), float> &&
+                sizeof(PointT) % sizeof(float) == 0) {
+    PointT& first = cloud.points.front();
+    if (&first.y == &first.x + 1 && &first.z == &first.x + 2) {
+      pcl_mrf_planes::projectPoints(plane, pose_.origin, way, indices,
+                                    sizeof(PointT) / sizeof(float), &first.x);
+      return; // as with all of PCL's point types
+    }
+  }
+  for (const int index : indices) {
+    PointT& point = cloud[static_cast<std::size_t>(index)];
+    const Eigen::Vector3d p(point.x, point.y, point.z);
+    const Eigen::Vector3d q =
+        pcl_mrf_planes::projectPoint(p - pose_.origin, plane, way) + pose_.origin;
+    using Number = decltype(PointT::x);
+    point.x = static_cast<Number>(q.x());
+    point.y = static_cast<Number>(q.y());
+    point.z = static_cast<Number>(q.z());
+  }
+}
+
+template <typename PointT>
 void MRFPlaneSegmentation<PointT>::projectOntoPlanes(PointCloud& output,
                                                      ProjectionWay way) const
 {
@@ -198,15 +228,7 @@ void MRFPlaneSegmentation<PointT>::projectOntoPlanes(PointCloud& output,
       // Axes of the cloud, origin at the sensor.
       pcl_mrf_planes::Plane plane = region.plane;
       plane.normal = pose_.rotation * region.plane.normal;
-      for (const int index : region.indices) {
-        PointT& point = output[static_cast<std::size_t>(index)];
-        const Eigen::Vector3d p(point.x, point.y, point.z);
-        const Eigen::Vector3d q =
-            pcl_mrf_planes::projectPoint(p - pose_.origin, plane, way) + pose_.origin;
-        point.x = static_cast<float>(q.x());
-        point.y = static_cast<float>(q.y());
-        point.z = static_cast<float>(q.z());
-      }
+      projectPoints(plane, region.indices, way, output);
     }
     done = true;
   });
