@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/label_confidence.h>
 
-#include <pcl_mrf_planes/belief_gap.h>
 #include <pcl_mrf_planes/plane_field.h>
+#include <pcl_mrf_planes/row_propagation.h>
 
 #include "adaptive/label_gap.h"
 #include "adaptive/label_gap_kernel.h"
@@ -20,12 +20,10 @@ std::vector<float> paperGaps(const OrganizedPoints& points,
                              const Parameters& parameters)
 {
   const PlaneField field(points, planes, parameters);
-  const GridField grid = field.toGridField();
-  BeliefPropagation propagation(grid, parameters.number_of_threads);
-  propagation.iterate(parameters.iterations);
   std::vector<float> gaps;
   gaps.reserve(points.size());
-  for (const std::uint16_t gap : beliefGaps(grid, propagation))
+  for (const std::uint16_t gap :
+       propagateRowGaps(field, parameters.iterations, parameters.number_of_threads))
     gaps.push_back(static_cast<float>(gap / field.unitsPerEnergy()));
   return gaps;
 }

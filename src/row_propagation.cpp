@@ -11,6 +11,29 @@ namespace pcl_mrf_planes {
 
 namespace {
 
+/// Gap between the least and the second least belief of the sites of a row.
+void beliefGapRow(const SiteRow& row, std::uint16_t* best, std::uint16_t* gap)
+{
+  std::fill_n(best, row.sites, std::uint16_t{65535});
+  std::fill_n(gap, row.sites, std::uint16_t{65535});
+  for (int l = 0; l < row.labels; ++l) {
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(l) * row.label_stride;
+    const std::uint16_t* data = row.data + offset;
+    const std::uint16_t* messages[DIRECTIONS] = {
+        row.received[0] + offset, row.received[1] + offset, row.received[2] + offset,
+        row.received[3] + offset};
+    for (int k = 0; k < row.sites; ++k) {
+      // No such sum exceeds 16 bits, see GridField.
+      const auto cost = static_cast<std::uint16_t>(
+          data[k] + messages[0][k] + messages[1][k] + messages[2][k] + messages[3][k]);
+      gap[k] = std::min(gap[k], std::max(best[k], cost));
+      best[k] = std::min(best[k], cost);
+    }
+  }
+  for (int k = 0; row.labels > 1 && k < row.sites; ++k)
+    gap[k] = static_cast<std::uint16_t>(gap[k] - best[k]);
+}
+
 /// Sweeps one band of the image.
 class BandSweep {
 public:
@@ -37,8 +60,9 @@ public:
     }
   }
 
-  /// Writes the labels of the band into the image \a out.
-  void run(std::vector<std::uint16_t>& out)
+  /// Calls finish(y) for the rows of the band, when their last messages have come.
+  template <typename Finish>
+  void run(const Finish& finish)
   {
     // Iteration t is at row step - t; row step is about to receive its first messages.
     clearMessages(top_);
@@ -54,7 +78,30 @@ public:
       }
       const int done = step - iterations_ - 1;
       if (done >= first_ && done < last_)
-        label(done, out);
+        finish(done);
+    }
+  }
+
+  /// Writes the labels of a row into the image \a out.
+  void label(int y, std::vector<std::uint16_t>& out)
+  {
+    for (int colour = 0; colour < 2; ++colour)
+      mapSites(siteRow(colour, y), layout_.width, colour, y, scratch_, out);
+  }
+
+  /// Writes the gaps between the beliefs of a row into the image \a out.
+  void gap(int y, std::vector<std::uint16_t>& out)
+  {
+    for (int colour = 0; colour < 2; ++colour) {
+      const SiteRow row = siteRow(colour, y);
+      gaps_.resize(2 * static_cast<std::size_t>(row.sites));
+      beliefGapRow(row, gaps_.data() + row.sites, gaps_.data());
+      std::uint16_t* to =
+          out.data() +
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(layout_.width) +
+          CheckerboardLayout::firstColumn(y, colour);
+      for (int k = 0; k < row.sites; ++k)
+        to[2 * k] = gaps_[static_cast<std::size_t>(k)];
     }
   }
 
@@ -116,12 +163,6 @@ private:
     sendRow(siteRow(colour, y), rows, scratch_);
   }
 
-  void label(int y, std::vector<std::uint16_t>& out)
-  {
-    for (int colour = 0; colour < 2; ++colour)
-      mapSites(siteRow(colour, y), layout_.width, colour, y, scratch_, out);
-  }
-
   const FieldRows& field_;
   const CheckerboardLayout& layout_;
   int labels_;
@@ -131,21 +172,22 @@ private:
   int ring_;         // rows in memory
   std::uint16_t least_pairwise_;
   KernelScratch scratch_;
+  std::vector<std::uint16_t> gaps_;
   std::vector<std::uint16_t> data_[2];
   std::vector<std::uint16_t> right_[2];
   std::vector<std::uint16_t> down_[2];
   std::vector<std::uint16_t> received_[DIRECTIONS][2];
 };
 
-} // namespace
-
-std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
-                                         unsigned int threads)
+/// Sweeps the image in bands; finish(sweep, y, image) writes a row.
+template <typename Finish>
+std::vector<std::uint16_t> sweep(const FieldRows& field, int iterations,
+                                 unsigned int threads, const Finish& finish)
 {
   const int width = field.layout().width;
   const int height = field.layout().height;
-  std::vector<std::uint16_t> labels(static_cast<std::size_t>(width) *
-                                    static_cast<std::size_t>(height));
+  std::vector<std::uint16_t> image(static_cast<std::size_t>(width) *
+                                   static_cast<std::size_t>(height));
   // No more bands than leave each one at least as much of its own as it repeats.
   const int most = std::max(1, height / std::max(1, 2 * iterations));
   const int bands = std::min(threadCount(threads), most);
@@ -153,9 +195,30 @@ std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
     const auto start = [&](int b) {
       return static_cast<int>(static_cast<long long>(height) * b / bands);
     };
-    BandSweep(field, iterations, start(band), start(band + 1)).run(labels);
+    BandSweep rows(field, iterations, start(band), start(band + 1));
+    rows.run([&](int y) { finish(rows, y, image); });
   });
-  return labels;
+  return image;
+}
+
+} // namespace
+
+std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
+                                         unsigned int threads)
+{
+  return sweep(field, iterations, threads,
+               [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
+                 rows.label(y, image);
+               });
+}
+
+std::vector<std::uint16_t> propagateRowGaps(const FieldRows& field, int iterations,
+                                            unsigned int threads)
+{
+  return sweep(field, iterations, threads,
+               [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
+                 rows.gap(y, image);
+               });
 }
 
 } // namespace pcl_mrf_planes

@@ -3,6 +3,7 @@
 #include "reference/inputs.h"
 #include "reference/propagation.h"
 
+#include <pcl_mrf_planes/belief_gap.h>
 #include <pcl_mrf_planes/belief_propagation.h>
 #include <pcl_mrf_planes/row_propagation.h>
 
@@ -58,6 +59,8 @@ TEST_P(PropagationTest, IsThePlainReferenceBitForBit)
     ASSERT_EQ(fast.mapLabels(), expected) << "labels after " << iterations;
     ASSERT_EQ(propagateRows(field, iterations), expected)
         << "row by row gives other labels after " << iterations;
+    ASSERT_EQ(propagateRowGaps(field, iterations), beliefGaps(field, fast))
+        << "row by row gives other gaps after " << iterations;
     std::size_t different = 0;
     for (int direction = 0; direction < 4; ++direction)
       for (int y = 0; y < field.height(); ++y)
@@ -84,6 +87,8 @@ TEST_P(PropagationTest, ThreadsGiveTheSameLabels)
       EXPECT_EQ(many.mapLabels(), expected) << threads << " threads";
       EXPECT_EQ(propagateRows(field, iterations, threads), expected)
           << threads << " threads, row by row, " << iterations << " iterations";
+      EXPECT_EQ(propagateRowGaps(field, iterations, threads), beliefGaps(field, one))
+          << threads << " threads";
     }
   }
 }

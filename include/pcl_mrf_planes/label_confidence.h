@@ -16,8 +16,8 @@ namespace pcl_mrf_planes {
  * 1 - exp(-g / 2s) with s the price of a label change between neighbours on a smooth
  * surface (label_change; of Method::PAPER the median price of two planes).
  *
- * Method::PAPER: the gap of the beliefs (beliefGaps()) of a field that is made once more,
- * propagated as often as for the labels.
+ * Method::PAPER: the gap of the beliefs (propagateRowGaps()) of a field that is made once
+ * more, propagated as often as for the labels: about the time of the segmentation.
  *
  * Method::ADAPTIVE keeps no beliefs. The gap is an approximation of one step: the final
  * planes, data cost and Potts prices of the random field, and of the neighbours the labels
