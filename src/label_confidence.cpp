@@ -59,8 +59,7 @@ std::vector<float> labelConfidence(const OrganizedPoints& points,
                                    const Parameters& parameters)
 {
   if (parameters.method == Method::ADAPTIVE) {
-    std::vector<float> gaps =
-        adaptive::labelGaps(points, result.regions, result.labels, parameters);
+    std::vector<float> gaps = adaptive::labelGaps(points, result, parameters);
     gapsToConfidence(points, parameters.adaptive.label_change, gaps);
     return gaps;
   }

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,10 @@ struct SegmentationReport {
              const std::vector<PlaneRegion>& regions);
 };
 
+namespace adaptive {
+struct BlockNoise;
+} // namespace adaptive
+
 /** \brief Result of a run, in the sensor frame. */
 struct PlaneSegmentation {
   std::vector<PlaneRegion> regions;  ///< largest area first
@@ -47,6 +52,8 @@ struct PlaneSegmentation {
   TileImage tiles;                   ///< the image of planar fits
   PlaneClusters clusters;            ///< label planes and the tile-to-plane map
   SegmentationReport report;
+  /// What labelConfidence() need not find anew; may be null.
+  std::shared_ptr<const adaptive::BlockNoise> block_noise;
 };
 
 /** \brief Segment organized points into planes by the method that the parameters name.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/plane_segmentation.h>
 
+#include "adaptive/block_noise.h"
 #include "adaptive/candidate_field.h"
 #include "adaptive/cell_labelling.h"
 #include "adaptive/curved_surfaces.h"
@@ -13,6 +14,7 @@
 #include "stage_timer.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace pcl_mrf_planes {
@@ -61,6 +63,7 @@ struct Labelling {
   NoiseLaw noise;
   FittedRegions fitted;
   LabelledPoints image;
+  std::shared_ptr<const BlockNoise> block_noise; ///< null where samples were labelled
 };
 
 Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_parameters,
@@ -106,7 +109,9 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   FittedRegions fitted = refineRegions(points, pyramid[0], noise, parameters, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image);
   timer.finish("refinement");
-  return {noise, std::move(fitted), std::move(image)};
+  return {noise, std::move(fitted), std::move(image),
+          std::make_shared<const BlockNoise>(
+              BlockNoise{noise, std::move(pyramid[BLOCK_LEVEL].sums)})};
 }
 
 /// The same of every so many-th point, and the labels of the others from theirs.
@@ -117,6 +122,7 @@ Labelling labelSampled(const OrganizedPoints& points, const Parameters& paramete
   const OrganizedPoints samples = samplePoints(points, every);
   timer.finish("sampling");
   Labelling found = labelPlanes(samples, parameters, report, timer);
+  found.block_noise.reset(); // of blocks of samples
   found.image = LabelledPoints(spreadLabels(points, samples, found.image.labels, every,
                                             found.fitted.planes, found.noise,
                                             parameters.adaptive),
@@ -142,6 +148,7 @@ PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
   result.regions = gatherRegions(points, planes, runs,
                                  {found.fitted.sums.begin(), found.fitted.sums.end()},
                                  parameters.min_inliers, parameters.min_area);
+  result.block_noise = std::move(found.block_noise);
   result.labels = std::move(found.image.labels);
   paintRegions(runs, result.regions, planes.size(), result.labels);
   timer.finish("regions");

@@ -2,6 +2,7 @@
 #include "adaptive/label_gap.h"
 
 #include "adaptive/block_costs.h"
+#include "adaptive/block_noise.h"
 #include "adaptive/candidate_field.h"
 #include "adaptive/edge_weights.h"
 #include "adaptive/label_gap_kernel.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
@@ -23,7 +25,6 @@ namespace {
 constexpr int SIDE = CandidateBlocks::SIDE;
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
 constexpr int REACH = 2; ///< of a label from the cells that have it, cells
-constexpr std::size_t BLOCK_LEVEL = 1; ///< tiles that are the blocks
 
 /// What the field knows of a plane, from its region.
 FittedPlane fittedPlane(const PlaneRegion& region)
@@ -44,7 +45,7 @@ FittedPlane fittedPlane(const PlaneRegion& region)
 std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& points,
                              const std::vector<std::uint16_t>& labels)
 {
-  std::vector<int> regions(cells.sums.size(), -1);
+  std::vector<int> regions(cells.at(0, cells.rows), -1);
   const auto width = static_cast<std::size_t>(points.width);
   for (int y = 0; y < points.height; ++y) {
     const std::uint16_t* row = &labels[static_cast<std::size_t>(y) * width];
@@ -55,6 +56,30 @@ std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& poin
           *cell = row[k] - 1;
   }
   return regions;
+}
+
+/// The noise of the blocks of a field, found as the segmentation finds it.
+std::shared_ptr<const BlockNoise> findBlockNoise(const OrganizedPoints& points,
+                                                 const Parameters& parameters)
+{
+  const AdaptiveParameters& adaptive = parameters.adaptive;
+  std::vector<TileLevel> pyramid = buildTilePyramid(points, adaptive);
+  const NoiseLaw noise = adaptive.estimate_noise
+                             ? estimateNoise(pyramid, adaptive)
+                             : statedNoise(parameters.noise, pyramid, adaptive);
+  assignLocalNoise(pyramid, noise, adaptive);
+  return std::make_shared<const BlockNoise>(
+      BlockNoise{noise, std::move(pyramid[BLOCK_LEVEL].sums)});
+}
+
+/// The cells of an image, without sums.
+TileLevel emptyCells(const OrganizedPoints& points)
+{
+  TileLevel cells;
+  cells.side = CELL;
+  cells.columns = (points.width + CELL - 1) / CELL;
+  cells.rows = (points.height + CELL - 1) / CELL;
+  return cells;
 }
 
 /// Labels of a row, and one that no point has on either side of it.
@@ -79,27 +104,24 @@ private:
 /// Costs of the random field around final labels.
 class GapFinder {
 public:
-  GapFinder(const OrganizedPoints& points, const std::vector<PlaneRegion>& regions,
-            const std::vector<std::uint16_t>& labels, const Parameters& parameters)
+  GapFinder(const OrganizedPoints& points, const PlaneSegmentation& result,
+            const Parameters& parameters)
   : points_(points)
-  , labels_(labels)
+  , labels_(result.labels)
   , parameters_(parameters.adaptive)
   , costs_{static_cast<float>(parameters.adaptive.none_cost),
            BlockCosts::MOST * static_cast<float>(parameters.adaptive.none_cost)}
   , width_(static_cast<std::size_t>(points.width))
-  , pyramid_(buildTilePyramid(points, parameters_))
-  , noise_(parameters_.estimate_noise
-               ? estimateNoise(pyramid_, parameters_)
-               : statedNoise(parameters.noise, pyramid_, parameters_))
+  , noise_(result.block_noise ? result.block_noise : findBlockNoise(points, parameters))
   , label_rows_(3, LabelRow(width_))
   {
-    assignLocalNoise(pyramid_, noise_, parameters_);
-    for (const PlaneRegion& region : regions) {
+    for (const PlaneRegion& region : result.regions) {
       regions_.planes.push_back(fittedPlane(region));
-      scales_.push_back(labelScale(regions_.planes.back(), noise_, parameters_));
+      scales_.push_back(labelScale(regions_.planes.back(), noise_->noise, parameters_));
     }
-    regions_.cell_region = cellRegions(pyramid_[0], points, labels);
-    blocks_ = findCandidates(regions_, pyramid_[0], points.width, points.height, REACH);
+    const TileLevel cells = emptyCells(points);
+    regions_.cell_region = cellRegions(cells, points, labels_);
+    blocks_ = findCandidates(regions_, cells, points.width, points.height, REACH);
     const std::size_t padded = static_cast<std::size_t>(blocks_.columns) * SIDE;
     per_step_.resize(padded);
     right_.assign(1 + padded, 0.0f); // the first: to the left of the image
@@ -134,11 +156,12 @@ private:
   void prepare(int column, int row)
   {
     const std::size_t block = blocks_.at(column, row);
-    const TileSums& sums = pyramid_[BLOCK_LEVEL].sums[block];
+    const TileSums& sums = noise_->blocks[block];
     const double range = sums.n > 0 ? sums.centroid().norm() : 1.0;
     const double variance = sums.n > 0 ? sums.noise / sums.n : 1.0;
     const auto at = static_cast<std::size_t>(column);
-    std::fill_n(&per_step_[at * SIDE], SIDE, perStep(noise_, parameters_, range));
+    std::fill_n(&per_step_[at * SIDE], SIDE,
+                perStep(noise_->noise, parameters_, range));
     for (std::size_t s = 0; s < blocks_.count[block]; ++s)
       candidates_[at * SLOTS + s] = candidate(blocks_.labelsOf(block)[s], variance);
   }
@@ -200,8 +223,7 @@ private:
   const AdaptiveParameters& parameters_;
   GapCosts costs_;
   std::size_t width_;
-  std::vector<TileLevel> pyramid_;
-  NoiseLaw noise_;
+  std::shared_ptr<const BlockNoise> noise_;
   TileRegions regions_;
   std::vector<LabelScale> scales_;
   CandidateBlocks blocks_;
@@ -216,11 +238,10 @@ private:
 } // namespace
 
 std::vector<float> labelGaps(const OrganizedPoints& points,
-                             const std::vector<PlaneRegion>& regions,
-                             const std::vector<std::uint16_t>& labels,
+                             const PlaneSegmentation& result,
                              const Parameters& parameters)
 {
-  return GapFinder(points, regions, labels, parameters).find();
+  return GapFinder(points, result, parameters).find();
 }
 
 } // namespace pcl_mrf_planes::adaptive

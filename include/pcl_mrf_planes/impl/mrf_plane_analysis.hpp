@@ -184,6 +184,7 @@ void MRFPlaneSegmentation<PointT>::computeConfidence(
     of_wholes.regions = wholes_;
     of_wholes.labels = pcl_mrf_planes::regionLabels(points_, wholes_);
     of_wholes.clusters = result_.clusters;
+    of_wholes.block_noise = result_.block_noise;
     confidence = pcl_mrf_planes::labelConfidence(points_, of_wholes, parameters_);
   });
 }
