@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "polygon_simplification.h"
 
+#include "line_simplification.h"
+
 // Coordinates stay as they are, as newer versions of Boost have it.
 #define BOOST_GEOMETRY_NO_ROBUSTNESS
 #include <boost/geometry.hpp>
-#include <boost/geometry/geometries/linestring.hpp>
 #include <boost/geometry/geometries/multi_point.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
@@ -19,7 +20,6 @@ namespace {
 
 namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
-using Line = bg::model::linestring<Point>;
 using Polygon = bg::model::polygon<Point, false>; // counterclockwise, closed
 
 Polygon toBoost(const FlatPolygon& polygon)
@@ -84,23 +84,43 @@ std::vector<std::size_t> anchorsOf(const FlatRing& ring,
   return anchors;
 }
 
+/// The corners of a ring, and once more those up to the first anchor.
+FlatLine unrolled(const FlatRing& ring, std::size_t first_anchor)
+{
+  FlatLine line;
+  line.x.reserve(ring.size() + first_anchor + 1);
+  line.y.reserve(ring.size() + first_anchor + 1);
+  const auto add = [&](const Eigen::Vector2d& corner) {
+    line.x.push_back(corner.x());
+    line.y.push_back(corner.y());
+  };
+  for (const Eigen::Vector2d& corner : ring)
+    add(corner);
+  for (std::size_t k = 0; k <= first_anchor; ++k)
+    add(ring[k]);
+  return line;
+}
+
 FlatRing simplifyRing(const FlatRing& ring, const std::vector<std::uint8_t>& fixed,
                       double tolerance)
 {
   const std::vector<std::size_t> anchors = anchorsOf(ring, fixed);
+  const FlatLine line = unrolled(ring, anchors[0]);
+  std::vector<std::uint8_t> kept(line.x.size());
   FlatRing out;
   for (std::size_t a = 0; a < anchors.size(); ++a) {
+    const std::size_t begin = anchors[a];
     const std::size_t end =
         a + 1 < anchors.size() ? anchors[a + 1] : anchors[0] + ring.size();
-    Line piece;
-    for (std::size_t k = anchors[a]; k <= end; ++k) {
-      const Eigen::Vector2d& corner = ring[k % ring.size()];
-      piece.emplace_back(corner.x(), corner.y());
-    }
-    Line simple;
-    bg::simplify(piece, simple, tolerance);
-    for (std::size_t k = 0; k + 1 < simple.size(); ++k)
-      out.emplace_back(simple[k].x(), simple[k].y());
+    keepCorners(line, begin, end, tolerance, kept);
+    const std::size_t before = out.size();
+    for (std::size_t k = begin; k < end; ++k)
+      if (kept[k] != 0)
+        out.push_back(ring[k % ring.size()]);
+    // Nothing is left of a piece that ends where it began.
+    if (out.size() == before + 1 && bg::equals(Point(line.x[begin], line.y[begin]),
+                                               Point(line.x[end], line.y[end])))
+      out.pop_back();
   }
   return out;
 }
