@@ -72,6 +72,7 @@ private:
   std::vector<PixelCorner> follow(int at, int x, int y, int part)
   {
     std::vector<PixelCorner> ring;
+    ring.reserve(64);
     int direction = 0;
     bool touched = isTouched(at, part);
     const int start = at;

@@ -43,11 +43,12 @@ public:
           x += AT_ONCE;
           continue;
         }
-        if (labelAt(here) != 0) {
-          look(here, 1, x);
-          look(here, width, y);
-        }
-        ++x;
+        const int end = std::min(x + AT_ONCE, width);
+        for (int p = here; x < end; ++x, ++p)
+          if (labelAt(p) != 0) {
+            look(p, 1, x);
+            look(p, width, y);
+          }
       }
     return std::move(borders_);
   }
@@ -95,9 +96,13 @@ private:
   {
     const std::size_t first = labels_[static_cast<std::size_t>(a)] - 1U;
     const std::size_t second = labels_[static_cast<std::size_t>(b)] - 1U;
-    std::vector<Eigen::Vector3d>& border = borders_[std::minmax(first, second)];
-    border.push_back(point(a));
-    border.push_back(point(b));
+    const Pair pair = std::minmax(first, second);
+    if (border_ == nullptr || pair != pair_) { // most often the one from before
+      pair_ = pair;
+      border_ = &borders_[pair];
+    }
+    border_->push_back(point(a));
+    border_->push_back(point(b));
   }
 
   Eigen::Vector3d point(int index) const
@@ -110,6 +115,8 @@ private:
   const std::vector<std::uint16_t>& labels_;
   int reach_;
   Borders borders_;
+  Pair pair_; ///< that was noted last
+  std::vector<Eigen::Vector3d>* border_ = nullptr;
 };
 
 /// Cuts what lies on a line where nothing does for too long.

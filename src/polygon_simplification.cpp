@@ -11,8 +11,10 @@
 #include <boost/geometry/geometries/polygon.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace pcl_mrf_planes {
 
@@ -44,7 +46,7 @@ double twiceArea(const FlatRing& ring)
   double sum = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Eigen::Vector2d& a = ring[k];
-    const Eigen::Vector2d& b = ring[(k + 1) % ring.size()];
+    const Eigen::Vector2d& b = k + 1 < ring.size() ? ring[k + 1] : ring[0];
     sum += a.x() * b.y() - a.y() * b.x();
   }
   return sum;
@@ -53,9 +55,12 @@ double twiceArea(const FlatRing& ring)
 std::size_t farthest(const FlatRing& ring, const Eigen::Vector2d& from)
 {
   std::size_t best = 0;
-  for (std::size_t k = 1; k < ring.size(); ++k)
-    if ((ring[k] - from).squaredNorm() > (ring[best] - from).squaredNorm())
+  double most = -1.0;
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    if (const double squared = (ring[k] - from).squaredNorm(); squared > most) {
+      most = squared;
       best = k;
+    }
   return best;
 }
 
@@ -116,7 +121,7 @@ FlatRing simplifyRing(const FlatRing& ring, const std::vector<std::uint8_t>& fix
     const std::size_t before = out.size();
     for (std::size_t k = begin; k < end; ++k)
       if (kept[k] != 0)
-        out.push_back(ring[k % ring.size()]);
+        out.emplace_back(line.x[k], line.y[k]);
     // Nothing is left of a piece that ends where it began.
     if (out.size() == before + 1 && bg::equals(Point(line.x[begin], line.y[begin]),
                                                Point(line.x[end], line.y[end])))
@@ -125,52 +130,66 @@ FlatRing simplifyRing(const FlatRing& ring, const std::vector<std::uint8_t>& fix
   return out;
 }
 
-/// The corners farthest along eight directions, counterclockwise: an octagon whose inside
-/// has no corner of the hull (Akl and Toussaint, 1978).
-FlatRing farthestCorners(const FlatRing& corners)
-{
-  const Eigen::Vector2d directions[] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
-                                        {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-  FlatRing out;
-  for (const Eigen::Vector2d& direction : directions) {
-    std::size_t best = 0;
-    double most = direction.dot(corners[0]);
-    for (std::size_t k = 1; k < corners.size(); ++k)
-      if (const double along = direction.dot(corners[k]); along > most) {
-        most = along;
-        best = k;
+/// An octagon inside the convex hull, none of whose corners lies inside it (Akl and
+/// Toussaint, 1978).
+class Octagon {
+public:
+  /// \param[in] corners one or more
+  explicit Octagon(const FlatRing& corners)
+  {
+    constexpr double ROUNDING = 1e-9; // of the squared size
+    const std::array<std::size_t, EIGHT> farthest = farthestCorners(corners);
+    double size = 0;
+    for (std::size_t k = 0; k < EIGHT; ++k) {
+      corners_[k] = corners[farthest[k]];
+      size = std::max(size, (corners_[k] - corners_[0]).squaredNorm());
+    }
+    for (std::size_t k = 0; k < EIGHT; ++k)
+      if (const Eigen::Vector2d edge = corners_[(k + 1) % EIGHT] - corners_[k];
+          edge.squaredNorm() > 0) {
+        corners_[edges_] = corners_[k];
+        ways_[edges_++] = edge;
       }
-    if (out.empty() || (corners[best] != out.back() && corners[best] != out.front()))
-      out.push_back(corners[best]);
+    least_ = ROUNDING * size;
   }
-  return out;
-}
 
-/// Without the corners that lie well inside the convex hull.
-FlatRing outermost(const FlatRing& corners)
-{
-  constexpr double ROUNDING = 1e-9; // of the squared size
-  const FlatRing octagon = farthestCorners(corners);
-  double size = 0;
-  for (const Eigen::Vector2d& corner : octagon)
-    size = std::max(size, (corner - octagon[0]).squaredNorm());
-  const double least = ROUNDING * size;
-  const auto isInside = [&](const Eigen::Vector2d& p) {
-    for (std::size_t k = 0; k < octagon.size(); ++k) {
-      const Eigen::Vector2d& a = octagon[k];
-      const Eigen::Vector2d edge = octagon[(k + 1) % octagon.size()] - a;
-      const Eigen::Vector2d way = p - a;
-      if (!(edge.x() * way.y() - edge.y() * way.x() > least))
+  bool isInside(const Eigen::Vector2d& p) const
+  {
+    for (std::size_t k = 0; k < edges_; ++k) {
+      const Eigen::Vector2d way = p - corners_[k];
+      if (!(ways_[k].x() * way.y() - ways_[k].y() * way.x() > least_))
         return false;
     }
-    return true;
-  };
-  FlatRing out;
-  for (const Eigen::Vector2d& corner : corners)
-    if (!isInside(corner))
-      out.push_back(corner);
-  return out;
-}
+    return edges_ > 2;
+  }
+
+private:
+  static constexpr std::size_t EIGHT = 8;
+
+  /// Farthest to the right, to the upper right, and so on.
+  static std::array<std::size_t, EIGHT> farthestCorners(const FlatRing& corners)
+  {
+    std::array<std::size_t, EIGHT> best = {};
+    std::array<double, EIGHT> most;
+    most.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const double x = corners[k].x();
+      const double y = corners[k].y();
+      const double along[] = {x, x + y, y, y - x, -x, -x - y, -y, x - y};
+      for (std::size_t d = 0; d < EIGHT; ++d)
+        if (along[d] > most[d]) {
+          most[d] = along[d];
+          best[d] = k;
+        }
+    }
+    return best;
+  }
+
+  std::array<Eigen::Vector2d, EIGHT> corners_;
+  std::array<Eigen::Vector2d, EIGHT> ways_; ///< to the next corner
+  std::size_t edges_ = 0;
+  double least_ = 0;
+};
 
 /// Turns the rings as they should be, and drops holes that are too small.
 void arrange(FlatPolygon& polygon, FixedCorners& fixed, double min_hole_area)
@@ -218,8 +237,10 @@ FlatRing convexHull(const FlatRing& corners)
   if (corners.empty())
     return {};
   bg::model::multi_point<Point> all;
-  for (const Eigen::Vector2d& corner : outermost(corners))
-    all.emplace_back(corner.x(), corner.y());
+  const Octagon octagon(corners);
+  for (const Eigen::Vector2d& corner : corners)
+    if (!octagon.isInside(corner)) // else no corner of the hull
+      all.emplace_back(corner.x(), corner.y());
   Polygon hull;
   bg::convex_hull(all, hull);
   FlatRing out;
