@@ -48,8 +48,9 @@ public:
         const int part = parts_.part_of_run[k];
         const int begin = static_cast<int>(place(run.begin, row));
         const int end = begin + static_cast<int>(run.end - run.begin);
-        for (int at = begin; at < end; ++at)
-          if (partAt(at - stride_) != part && !isSeen(at))
+        for (int at = skipCovered(begin, end, part); at < end;
+             at = skipCovered(at + 1, end, part))
+          if (!isSeen(at))
             rings[static_cast<std::size_t>(part)].push_back(follow(
                 at, at - begin + static_cast<int>(run.begin - row * image_.width),
                 static_cast<int>(row), part));
@@ -65,6 +66,23 @@ private:
   {
     return static_cast<std::ptrdiff_t>(point + 2 * row + 1 + image_.width + 2);
   }
+  /// Not past the first place that has another part above it.
+  int skipCovered(int at, int end, int part) const
+  {
+    constexpr int AT_ONCE = 8;
+    for (; at + AT_ONCE <= end; at += AT_ONCE) {
+      const int* above = &part_[static_cast<std::size_t>(at - stride_)];
+      int differ = 0;
+      for (int k = 0; k < AT_ONCE; ++k)
+        differ |= above[k] ^ part;
+      if (differ != 0)
+        break;
+    }
+    while (at < end && partAt(at - stride_) == part)
+      ++at;
+    return at;
+  }
+
   int partAt(int at) const { return part_[static_cast<std::size_t>(at)]; }
   bool isSeen(int at) const { return seen_[static_cast<std::size_t>(at)] != 0; }
 
