@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -41,19 +42,36 @@ FittedPlane fittedPlane(const PlaneRegion& region)
   return out;
 }
 
-/// Region of the first labelled point of each cell, or -1: enough to say what is near.
+/// Region of the first labelled point of a cell, or -1.
+int firstRegion(const std::uint16_t* labels, std::size_t width, std::size_t columns,
+                std::size_t rows)
+{
+  for (std::size_t row = 0; row < rows; ++row, labels += width) {
+    std::uint64_t all = 0;
+    std::memcpy(&all, labels, columns * sizeof(*labels));
+    for (std::size_t k = 0; all != 0 && k < columns; ++k)
+      if (labels[k] != 0)
+        return labels[k] - 1;
+  }
+  return -1;
+}
+
+/// That of each cell: enough to say what is near.
 std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& points,
                              const std::vector<std::uint16_t>& labels)
 {
-  std::vector<int> regions(cells.at(0, cells.rows), -1);
+  std::vector<int> regions;
+  regions.reserve(cells.at(0, cells.rows));
   const auto width = static_cast<std::size_t>(points.width);
-  for (int y = 0; y < points.height; ++y) {
-    const std::uint16_t* row = &labels[static_cast<std::size_t>(y) * width];
-    int* cell = &regions[cells.at(0, y / CELL)];
-    for (std::size_t x = 0; x < width; x += CELL, ++cell)
-      for (std::size_t k = x; k < std::min(x + CELL, width) && *cell < 0; ++k)
-        if (row[k] != 0)
-          *cell = row[k] - 1;
+  const auto height = static_cast<std::size_t>(points.height);
+  for (std::size_t y = 0; y < height; y += CELL) {
+    const std::size_t rows = std::min<std::size_t>(CELL, height - y);
+    const std::uint16_t* row = &labels[y * width];
+    std::size_t x = 0;
+    for (; x + CELL <= width; x += CELL)
+      regions.push_back(firstRegion(row + x, width, CELL, rows));
+    if (x < width)
+      regions.push_back(firstRegion(row + x, width, width - x, rows));
   }
   return regions;
 }
