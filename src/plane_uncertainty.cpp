@@ -48,6 +48,8 @@ struct Evidence {
   Eigen::Matrix2d spread; ///< n times the covariance in the plane less the noise, m^2
   Eigen::Matrix3d noise;  ///< sum w w^t e^2
   std::vector<double> ratios; ///< of blocks: squared sum over its expected value
+  /// Sum of g g^t over those blocks, with g the sum of w r over the points of a block.
+  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();
 };
 
 /// Side of the blocks: many in an image, and wider than noise is correlated.
@@ -180,6 +182,8 @@ private:
       const double leverage =
           (b.n / out.n) +
           (b.u * b.u / out.spread(0, 0) + b.v * b.v / out.spread(1, 1)) / b.n;
+      const Eigen::Vector3d g = b.distance * Eigen::Vector3d(b.u / b.n, b.v / b.n, 1.0);
+      out.shared += g * g.transpose() / std::max(1.0 - leverage, 0.5);
       if (leverage < LARGEST_LEVERAGE)
         out.ratios.push_back(b.distance * b.distance / (b.variance * (1.0 - leverage)));
     }
@@ -214,6 +218,29 @@ double ownCorrelation(const Evidence& evidence, double pooled)
     sum += ratio;
   const double blocks = POOLED_BLOCKS + static_cast<double>(evidence.ratios.size());
   return std::max(1.0, sum / blocks);
+}
+
+/// Noise of the sums, at least what the blocks show: along the directions in which they are
+/// off together by more than noise explains, as where points of other surfaces are among
+/// them. Blocks as expected count beside a region's own, so that chance has little say.
+Eigen::Matrix3d robustNoise(const Evidence& evidence, double correlation)
+{
+  const Eigen::Matrix3d noise = correlation * evidence.noise;
+  const Eigen::LLT<Eigen::Matrix3d> factor(noise);
+  if (factor.info() != Eigen::Success)
+    return noise;
+  const Eigen::Matrix3d root = factor.matrixL();
+  Eigen::Matrix3d ratio = factor.matrixL().solve(evidence.shared);
+  ratio = factor.matrixL().solve(ratio.transpose()).eval();
+  const auto blocks = static_cast<double>(evidence.ratios.size());
+  ratio = (POOLED_BLOCKS * Eigen::Matrix3d::Identity() + blocks * ratio) /
+          (POOLED_BLOCKS + blocks);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(ratio);
+  if (!axes.eigenvalues().allFinite())
+    return noise;
+  const Eigen::Matrix3d directions = root * axes.eigenvectors();
+  return directions * axes.eigenvalues().cwiseMax(1.0).asDiagonal() *
+         directions.transpose();
 }
 
 /// d of (a, b, c, d) over d of (alpha, beta, delta).
@@ -259,8 +286,8 @@ PlaneUncertainty finish(const Evidence& evidence, double pooled)
   const Eigen::Vector2d centroid = out.basis.transpose() * evidence.centroid;
   const Eigen::Vector3d inverse(1.0 / evidence.spread(0, 0),
                                 1.0 / evidence.spread(1, 1), 1.0 / evidence.n);
-  out.at_centroid = out.points_per_independent *
-                    (inverse.asDiagonal() * evidence.noise * inverse.asDiagonal());
+  const Eigen::Matrix3d noise = robustNoise(evidence, out.points_per_independent);
+  out.at_centroid = inverse.asDiagonal() * noise * inverse.asDiagonal();
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   bias.head<2>() = biasOf(evidence, centroid);
   const Eigen::Matrix3d l = toOrigin(centroid);

@@ -179,7 +179,7 @@ TEST_P(CoverageTest, HoldsForPlanesThatTheDefaultProfileFinds)
   RecordProperty("share", std::to_string(coverage.share()));
   RecordProperty("share_biased", std::to_string(biased.share()));
   EXPECT_GT(coverage.planes(), 60);
-  EXPECT_GT(coverage.share(), 0.85) << coverage.planes() << " planes";
+  EXPECT_GT(coverage.share(), 0.92) << coverage.planes() << " planes";
   EXPECT_GT(coverage.share(), biased.share()) << "the bias is worth subtracting";
 }
 

@@ -37,7 +37,9 @@ struct PlaneUncertainty {
   /// Expected error of (a, b, c, d). Noise along the viewing ray stretches an oblique
   /// surface and turns its plane; the mean of many frames keeps this error.
   Eigen::Vector4d bias = Eigen::Vector4d::Zero();
-  /// Points that tell as much as one with independent noise; 1 for white noise.
+  /// Points that tell as much as one with independent noise; 1 for white noise. The
+  /// covariances hold that, and more in directions in which blocks of the region are off
+  /// together by more than it explains (points of other surfaces).
   double points_per_independent = 1.0;
 
   /** \brief The plane less its bias. */
