@@ -6,6 +6,7 @@
 #include "interruption.h"
 #include "options.h"
 #include "output_file.h"
+#include "parameter_file.h"
 #include "segmented_frame.h"
 #include "table.h"
 
@@ -75,6 +76,15 @@ int runSingle(const Options& options)
   return 0;
 }
 
+int run(const Options& options)
+{
+  if (!options.save_parameters.empty())
+    writeParameterFile(options.save_parameters, {options.profile, options.parameters});
+  if (options.onlySavesParameters(options.inputs.size()))
+    return 0;
+  return options.batch.active() ? runBatch(options) : runSingle(options);
+}
+
 } // namespace
 
 int main(int argc, char* argv[])
@@ -88,7 +98,7 @@ int main(int argc, char* argv[])
     else if (options.version)
       std::cout << PROGRAM << ' ' << PCL_MRF_PLANES_VERSION << '\n';
     else
-      return options.batch.active() ? runBatch(options) : runSingle(options);
+      return run(options);
     return 0;
   }
   catch (const UsageError& error) {
