@@ -22,7 +22,8 @@ const std::map<std::string, FrameOutput>& outputNames()
   static const std::map<std::string, FrameOutput> names = {
       {"cloud", FrameOutput::CLOUD},     {"labels", FrameOutput::LABELS},
       {"overlay", FrameOutput::OVERLAY}, {"masks", FrameOutput::MASKS},
-      {"ply", FrameOutput::PLY},         {"truth", FrameOutput::TRUTH}};
+      {"ply", FrameOutput::PLY},         {"truth", FrameOutput::TRUTH},
+      {"figure", FrameOutput::FIGURE}};
   return names;
 }
 

@@ -32,6 +32,12 @@ po::options_description fileOptions()
        "write a picture of three panels: colour, depth (invalid points black), "
        "labels")                                                                   //
       ("masks", text("FOLDER"), "write a picture for each plane into this folder") //
+      ("figure", text("FILE.png"),
+       "write a picture of two rows, colour, depth, labels: profile paper, and profile "
+       "default under it") //
+      ("stages", text("FOLDER"),
+       "write pictures of the tiles and of the labels after every stage and iteration, "
+       "and tables of tiles and energies, into this folder")                       //
       ("ply", text("FILE.ply"), "write the points in the colours of their labels") //
       ("format", text("ascii|binary|binary_compressed"),
        "encoding of OUT.pcd (default: that of IN, or binary_compressed)") //
@@ -177,6 +183,7 @@ void checkFileNames(const Options& options)
       {"--label-image", options.label_image},
       {"--overlay", options.overlay},
       {"--ply", options.ply},
+      {"--figure", options.figure},
       {"--save-parameters", options.save_parameters}};
   for (const auto& file : options.regions.files())
     outputs.push_back(file);
@@ -217,6 +224,8 @@ void readBatchInputs(const std::vector<std::string>& files, Options& options)
         std::make_pair("rest", options.regions.rest),
         std::make_pair("label-image", options.label_image),
         std::make_pair("overlay", options.overlay),
+        std::make_pair("figure", options.figure),
+        std::make_pair("stages", options.stages),
         std::make_pair("masks", options.masks), std::make_pair("ply", options.ply)})
     if (!output.second.empty())
       throw UsageError(std::string("--") + output.first +
@@ -231,6 +240,8 @@ void readFileNames(const po::variables_map& values, Options& options)
   options.overlay = given(values, "overlay");
   options.masks = given(values, "masks");
   options.ply = given(values, "ply");
+  options.figure = given(values, "figure");
+  options.stages = given(values, "stages");
   options.save_parameters = given(values, "save-parameters");
   if (options.onlySavesParameters(files.size()))
     return;
@@ -246,10 +257,11 @@ void readFileNames(const po::variables_map& values, Options& options)
     options.output = files[1];
   if (options.output.empty() && options.models.empty() && options.label_image.empty() &&
       options.overlay.empty() && options.masks.empty() && options.ply.empty() &&
-      options.save_parameters.empty() && !options.timing &&
-      !options.regions.writesFiles())
-    throw UsageError("nothing to write; name OUT.pcd, or give --models, --label-image, "
-                     "--overlay, --masks, --ply, --timing or --output-folder");
+      options.save_parameters.empty() && options.figure.empty() &&
+      options.stages.empty() && !options.timing && !options.regions.writesFiles())
+    throw UsageError(
+        "nothing to write; name OUT.pcd, or give --models, --label-image, "
+        "--overlay, --figure, --stages, --masks, --ply, --timing or --output-folder");
   checkFileNames(options);
 }
 

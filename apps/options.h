@@ -30,6 +30,8 @@ struct Options {
   std::string masks; ///< a folder
   std::string ply;
   std::string save_parameters;
+  std::string stages; ///< a folder
+  std::string figure;
   int repeat = 1;
   bool wrap = false; ///< the last column is the neighbour of the first
   bool timing = false;

@@ -95,7 +95,7 @@ void apply(const std::string& path, const Line& line, ParameterSet& set)
                  "'; see --help for their names");
   if (option->argument.empty() && line.value != "true" && line.value != "false")
     complain(path, line.number,
-             line.name + " is '" + line.value + "'; choose one of false, true");
+             line.name + " is '" + line.value + "'; choose one of true, false");
   try {
     option->parse(set.parameters, line.value);
   }

@@ -76,6 +76,15 @@ std::string printNoise(const NoiseModel& noise)
   return printReal(noise.a) + ',' + printReal(noise.b) + ',' + printReal(noise.c);
 }
 
+/// Choices as people say them: true comes first.
+std::vector<std::string> namesOf(const ParameterEntry& entry)
+{
+  std::vector<std::string> names = entry.choices;
+  if (!names.empty() && names.front() == "false")
+    std::reverse(names.begin(), names.end());
+  return names;
+}
+
 void checkRange(const ParameterEntry& entry, const std::string& name, double value)
 {
   if (!(value >= entry.low && value <= entry.high))
@@ -93,7 +102,7 @@ void parseEntry(const ParameterEntry& entry, const std::string& name,
     const auto found = std::find(entry.choices.begin(), entry.choices.end(), text);
     if (found == entry.choices.end())
       throw UsageError("--" + name + " is '" + text + "'; choose one of " +
-                       join(entry.choices));
+                       join(namesOf(entry)));
     value = static_cast<double>(found - entry.choices.begin());
   }
   else if (entry.isWhole())
@@ -116,7 +125,7 @@ ParameterOption optionOf(const ParameterEntry& entry)
   const bool is_switch = name == "energy"; // as an option, given or not
   const std::string argument = is_switch               ? ""
                                : entry.choices.empty() ? entry.unit
-                                                       : join(entry.choices, "|");
+                                                       : join(namesOf(entry), "|");
   return {name, argument, entry.help,
           [&entry, name](Parameters& p, const std::string& text) {
             parseEntry(entry, name, text, p);

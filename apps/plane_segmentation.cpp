@@ -8,6 +8,7 @@
 #include "output_file.h"
 #include "parameter_file.h"
 #include "segmented_frame.h"
+#include "stage_files.h"
 #include "table.h"
 
 #include <pcl_mrf_planes/io/frame.h>
@@ -65,6 +66,8 @@ int runSingle(const Options& options)
   const io::FrameSource source = singleFrame(options);
   const FrameAndResult all = segmentFrame(source, options);
   writeOutputs(files, {source, all.frame, *all.cloud, all.result}, options);
+  if (!options.stages.empty())
+    writeStages(options.stages, *all.cloud, all.frame.colours, options.parameters);
   if (options.quiet)
     return 0;
   printPlanes(std::cout, all.result);

@@ -68,7 +68,7 @@ TEST_F(ParameterFileTest, TheProfileOfTheCommandLineWinsToo)
   write("p.txt", "profile = default\nmin-evidence = 321\n");
   const Json values = used({"--parameters", path("p.txt"), "--profile", "fast"});
   EXPECT_EQ(values.at("sampling"), 2);
-  EXPECT_EQ(values.at("min-evidence"), 321);
+  EXPECT_EQ(values.at("min_evidence"), 321);
 }
 
 TEST_F(ParameterFileTest, MistakesAreNamedWithTheirLine)
@@ -83,7 +83,7 @@ TEST_F(ParameterFileTest, MistakesAreNamedWithTheirLine)
       {"flatness = nan\n", {"line 1", "flatness is 'nan'"}},
       {"levels = 3\nlevels = 3\n", {"line 2", "line 1 already"}},
       {"profile = best\n", {"line 1", "'best'", "default, fast, paper"}},
-      {"profile = paper\nenergy = 1\n", {"line 2", "false, true"}},
+      {"profile = paper\nenergy = 1\n", {"line 2", "true, false"}},
       {"fan-parts = 1\n", {"fan_parts is 1"}},
       {std::string("\0\xff\x01 = \n", 7), {"line 1", "no parameter"}}};
   for (const auto& [text, words] : cases) {
