@@ -12,7 +12,7 @@ namespace pcl_mrf_planes::apps {
 namespace {
 
 constexpr Rgb NO_PLANE_GRAY = {128, 128, 128};
-constexpr double LEAST_CHROMA = 0.055; // in OKLab: below it a colour looks gray
+constexpr double LEAST_CHROMA = 0.08; // in OKLab: less looks gray over a picture
 
 /// Contrast of WCAG 2 to black of 3 and to white of 1.7.
 bool isReadable(const Rgb& colour)
