@@ -188,6 +188,15 @@ void MRFPlaneSegmentation<PointT>::computeConfidence(
 }
 
 template <typename PointT>
+void MRFPlaneSegmentation<PointT>::computeStages(
+    pcl_mrf_planes::SegmentationStages& stages) const
+{
+  stages = {};
+  analyse("computeStages",
+          [&] { stages = pcl_mrf_planes::recordStages(points_, parameters_); });
+}
+
+template <typename PointT>
 void MRFPlaneSegmentation<PointT>::projectOntoPlanes(PointCloud& output,
                                                      ProjectionWay way) const
 {
