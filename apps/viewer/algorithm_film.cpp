@@ -1,84 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "algorithm_film.h"
 
-#include <pcl_mrf_planes/belief_propagation.h>
-#include <pcl_mrf_planes/plane_field.h>
-
 #include <algorithm>
-#include <sstream>
+#include <cmath>
 #include <utility>
 
 namespace pcl_mrf_planes::viewer {
 
 namespace {
 
-template <typename LabelOfTile>
-std::vector<std::uint16_t> labelTiles(const ViewFrame& frame, const TileCells& cells,
-                                      const LabelOfTile& label_of)
+/// Every kept tile in a colour of its own.
+FilmStep tileStep(const TileCells& cells)
 {
-  std::vector<std::uint16_t> labels(frame.points.size(), 0);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const auto width = static_cast<std::size_t>(frame.points.width);
-    const std::size_t tile =
-        cells.image.tileAt(static_cast<int>(i % width), static_cast<int>(i / width));
-    if (frame.points.valid[i] != 0 && cells.image.tiles[tile].kept())
-      labels[i] = static_cast<std::uint16_t>(label_of(tile));
+  FilmStep step;
+  step.title = "detected tiles";
+  const auto kept = std::count_if(cells.tiles.begin(), cells.tiles.end(),
+                                  [](const StageTile& tile) { return tile.kept; });
+  step.note = std::to_string(kept) + " tiles are kept";
+  step.labels.assign(cells.tile_of_point.size(), 0);
+  for (std::size_t i = 0; i < step.labels.size(); ++i) {
+    const int tile = cells.tile_of_point[i];
+    if (tile >= 0 && cells.tiles[static_cast<std::size_t>(tile)].kept)
+      step.labels[i] = static_cast<std::uint16_t>(tile + 1);
   }
-  return labels;
+  for (std::size_t t = 0; t < cells.tiles.size(); ++t)
+    step.classes.push_back(static_cast<std::uint32_t>(t + 1));
+  return step;
 }
 
-void addTileSteps(const ViewFrame& frame, const TileCells& cells, AlgorithmFilm& film)
+FilmStep mergedStep(const TileCells& cells, std::size_t planes)
 {
-  const std::size_t kept = cells.image.countKept();
-  film.steps.push_back(
-      {"detected tiles", labelTiles(frame, cells, [](std::size_t t) { return t + 1; }),
-       std::to_string(kept) + " of " + std::to_string(cells.image.tiles.size()) +
-           " tiles are kept",
-       -1});
-  film.steps.push_back(
-      {"merged planes",
-       labelTiles(frame, cells,
-                  [&](std::size_t t) { return cells.clusters.assignment[t] + 1; }),
-       std::to_string(cells.clusters.planes.size()) + " planes", -1});
+  return {"merged planes", std::to_string(planes) + " planes", cells.mergedLabels(),
+          cells.classes, -1};
 }
 
-void addLabels(const ViewFrame& frame, const BeliefPropagation& propagation,
-               const PlaneField& field, int iteration, AlgorithmFilm& film)
+std::string titleOf(const StageLabels& stage)
 {
-  const std::vector<std::uint16_t> labels = propagation.mapLabels();
-  const double energy = field.energy(labels).total();
-  film.energy.push_back(energy);
-  std::ostringstream note;
-  note << "energy " << static_cast<long>(energy);
-  FilmStep step{"labels after " + std::to_string(iteration) +
-                    (iteration == 1 ? " iteration" : " iterations"),
-                std::vector<std::uint16_t>(labels.size(), 0), note.str(), iteration};
-  for (std::size_t i = 0; i < labels.size(); ++i)
-    if (frame.points.valid[i] != 0)
-      step.labels[i] = static_cast<std::uint16_t>(labels[i] + 1);
-  film.steps.push_back(std::move(step));
+  const std::string count = std::to_string(stage.count);
+  switch (stage.stage) {
+  case Stage::ITERATION:
+    return "labels after " + count + (stage.count == 1 ? " iteration" : " iterations");
+  case Stage::CELLS:
+    return "cells, round " + count;
+  case Stage::JOINED:
+    return "coplanar planes joined";
+  case Stage::REFINED:
+    return "planes fitted again";
+  case Stage::FINAL:
+    return "result";
+  default:
+    return stageName(stage.stage);
+  }
+}
+
+FilmStep labelStep(const StageLabels& stage, const apps::ColourTrack& track)
+{
+  FilmStep step;
+  step.title = titleOf(stage);
+  step.note = std::to_string(stage.planes.size()) + " planes";
+  if (stage.energy)
+    step.note += ", energy " + std::to_string(std::lround(stage.energy->total()));
+  step.labels = stage.labels;
+  apps::ColourTrack own = track;
+  step.classes = own.update(stage.planes, stage.labels);
+  if (stage.stage == Stage::ITERATION)
+    step.iteration = stage.count;
+  return step;
 }
 
 } // namespace
 
-AlgorithmFilm filmAlgorithm(const ViewFrame& frame, const Parameters& parameters,
-                            int most_iterations)
+AlgorithmFilm filmOf(const SegmentationStages& stages, const TileCells& cells,
+                     const apps::ColourTrack& track)
 {
   AlgorithmFilm film;
-  const TileCells cells = fitTiles(frame, parameters);
-  addTileSteps(frame, cells, film);
-  if (cells.clusters.planes.empty())
-    return film;
-  std::vector<Plane> planes;
-  for (const PlaneModel& model : cells.clusters.planes)
-    planes.push_back(model.plane);
-  const PlaneField field(frame.points, planes, parameters);
-  const GridField grid = field.toGridField();
-  BeliefPropagation propagation(grid, parameters.number_of_threads);
-  const int iterations = std::min(parameters.iterations, most_iterations);
-  for (int done = 0; done <= iterations; ++done) {
-    addLabels(frame, propagation, field, done, film);
-    propagation.iterate(1);
+  film.steps.push_back(tileStep(cells));
+  film.steps.push_back(mergedStep(cells, stages.merged_planes.size()));
+  for (const StageLabels& stage : stages.labels) {
+    if (stage.stage == Stage::MERGED) // the step before shows it
+      continue;
+    film.steps.push_back(labelStep(stage, track));
+    if (stage.stage == Stage::ITERATION && stage.energy)
+      film.energy.push_back(stage.energy->total());
   }
   return film;
 }

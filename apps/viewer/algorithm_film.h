@@ -2,8 +2,10 @@
 #pragma once
 
 #include "tile_cells.h"
+#include "view_frame.h"
 
-#include <cstdint>
+#include "colour_track.h"
+
 #include <string>
 #include <vector>
 
@@ -12,23 +14,21 @@ namespace pcl_mrf_planes::viewer {
 /** \brief One picture of the film: the algorithm after one of its steps. */
 struct FilmStep {
   std::string title;
-  std::vector<std::uint16_t> labels; ///< per point: 0 none, k a tile's or label plane's
   std::string note;
-  int iteration = -1; ///< of belief propagation; -1: before it
+  std::vector<std::uint16_t> labels;  ///< per point: 0 none
+  std::vector<std::uint32_t> classes; ///< colour of each label from 1
+  int iteration = -1;                 ///< of belief propagation; -1: none
 };
 
-/** \brief The paper's method step by step on one frame. */
+/** \brief A segmentation step by step. */
 struct AlgorithmFilm {
   std::vector<FilmStep> steps;
-  std::vector<double> energy; ///< after 0, 1, 2, ... iterations, equation (6)
+  std::vector<double> energy; ///< after 0, 1, 2, ... iterations
 };
 
-/** \brief Run the paper's method and keep every step: detected tiles, merged planes, labels
- * after 0, 1, ... iterations. The labels are those of segmentAsInPaper() bit for bit.
- *
- * Memory: 10 L bytes a point while it runs, 2 bytes a point and step after it.
- * \param[in] most_iterations bound of the film's length */
-AlgorithmFilm filmAlgorithm(const ViewFrame& frame, const Parameters& parameters,
-                            int most_iterations = 30);
+/** \brief Detected tiles, merged planes, then the labels after each recorded stage.
+ * \param[in] track of the result's planes: a plane has its colour in all steps */
+AlgorithmFilm filmOf(const SegmentationStages& stages, const TileCells& cells,
+                     const apps::ColourTrack& track);
 
 } // namespace pcl_mrf_planes::viewer

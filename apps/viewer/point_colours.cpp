@@ -45,13 +45,12 @@ std::string number(const char* format, double value)
   return buffer.data();
 }
 
-double tileError(const TileCells& tiles, int width, std::size_t i)
+double tileError(const TileCells& cells, std::size_t i)
 {
-  const int x = static_cast<int>(i % static_cast<std::size_t>(width));
-  const int y = static_cast<int>(i / static_cast<std::size_t>(width));
-  const TilePlane& tile = tiles.image.tiles[tiles.image.tileAt(x, y)];
-  const bool fitted = tile.kept() || tile.state == TileState::BAD_FIT;
-  return fitted ? tile.fit.rms : NOTHING;
+  const int tile = cells.tile_of_point[i];
+  if (tile < 0 || !cells.tiles[static_cast<std::size_t>(tile)].kept)
+    return NOTHING;
+  return cells.tiles[static_cast<std::size_t>(tile)].rms;
 }
 
 std::vector<double> valuesOf(const ViewFrame& frame, const SegmentedView& view,
@@ -68,8 +67,8 @@ std::vector<double> valuesOf(const ViewFrame& frame, const SegmentedView& view,
       values[i] = static_cast<double>(frame.points.depth(i));
     else if (mode == ColourMode::DISTANCE)
       values[i] = 1000.0 * std::abs(distanceToPlane(frame, view, i));
-    else if (mode == ColourMode::TILE_ERROR && !tiles.image.tiles.empty())
-      values[i] = 1000.0 * tileError(tiles, frame.points.width, i);
+    else if (mode == ColourMode::TILE_ERROR && i < tiles.tile_of_point.size())
+      values[i] = 1000.0 * tileError(tiles, i);
     else if (mode == ColourMode::CONFIDENCE && i < confidence.size() &&
              view.labels[i] != 0)
       values[i] = static_cast<double>(confidence[i]);

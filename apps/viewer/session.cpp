@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session.h"
 
+#include "parameter_file.h"
 #include "parameter_options.h"
 #include "peer_segmentation.h"
 
@@ -21,11 +22,16 @@ Enum following(Enum value, Enum last)
   return value == last ? Enum{} : static_cast<Enum>(static_cast<int>(value) + 1);
 }
 
+std::string profileName(Profile profile)
+{
+  return profile == Profile::PAPER  ? "paper"
+         : profile == Profile::FAST ? "fast"
+                                    : "default";
+}
+
 std::string nameOf(Profile profile)
 {
-  return profile == Profile::PAPER  ? "profile paper"
-         : profile == Profile::FAST ? "profile fast"
-                                    : "profile default";
+  return "profile " + profileName(profile);
 }
 
 Profile profileOf(Comparison comparison)
@@ -33,6 +39,15 @@ Profile profileOf(Comparison comparison)
   return comparison == Comparison::PAPER  ? Profile::PAPER
          : comparison == Comparison::FAST ? Profile::FAST
                                           : Profile::DEFAULT;
+}
+
+/// The track takes any frame that stays: that of the cloud does.
+std::vector<Plane> sensorPlanes(const SegmentedView& view)
+{
+  std::vector<Plane> planes;
+  for (const ViewPlane& plane : view.planes)
+    planes.push_back({plane.normal, plane.d});
+  return planes;
 }
 
 } // namespace
@@ -70,7 +85,7 @@ bool Session::performView(Action action)
     settings.mode = static_cast<ColourMode>(static_cast<int>(action) -
                                             static_cast<int>(Action::BY_PLANE));
     settings.film = false;
-    updateTiles();
+    updateStages();
     return true;
   }
   switch (action) {
@@ -88,7 +103,7 @@ bool Session::performView(Action action)
     return toggle(settings.dark);
   case Action::TILES:
     toggle(settings.tiles);
-    updateTiles();
+    updateStages();
     return true;
   case Action::PANEL:
     settings.panel = following(settings.panel, Panel::LABELS_ON_DEPTH);
@@ -100,7 +115,7 @@ bool Session::performView(Action action)
   case Action::FILM:
     toggle(settings.film);
     settings.film_step = 0;
-    updateFilm();
+    updateStages();
     return true;
   case Action::FILM_FORWARD:
   case Action::FILM_BACK: {
@@ -274,10 +289,9 @@ void Session::nextProfile()
 void Session::segment()
 {
   main_ = segmentView(frame_, parameters_, nameOf(profile_));
-  main_colours_ = main_classes_.follow(main_);
+  main_colours_ = track_.update(sensorPlanes(main_), main_.labels);
   compare();
-  updateTiles();
-  updateFilm();
+  updateStages();
 }
 
 void Session::compare()
@@ -291,26 +305,23 @@ void Session::compare()
     other_ = segmentView(frame_, Parameters::fromProfile(profile), nameOf(profile));
   }
   // The same colours on both sides where the planes are the same.
-  other_classes_ = main_classes_;
-  other_colours_ = other_classes_.follow(other_);
+  apps::ColourTrack own = track_;
+  other_colours_ = own.update(sensorPlanes(other_), other_.labels);
 }
 
-void Session::updateTiles()
+void Session::updateStages()
 {
-  if (settings.tiles || settings.mode == ColourMode::TILE_ERROR)
-    tiles_ = fitTiles(frame_, parameters_);
-}
-
-void Session::updateFilm()
-{
+  if (!settings.tiles && !settings.film && settings.mode != ColourMode::TILE_ERROR)
+    return;
+  const SegmentationStages stages = recordStages(frame_.points, parameters_);
+  tiles_ = tilesOf(stages);
+  apps::ColourTrack own = track_;
+  tiles_.classes = own.update(stages.merged_planes, tiles_.mergedLabels());
   if (!settings.film)
     return;
-  Parameters paper = parameters_;
-  if (paper.method != Method::PAPER)
-    paper = Parameters::fromProfile(Profile::PAPER);
-  film_ = filmAlgorithm(frame_, paper);
+  film_ = filmOf(stages, tiles_, track_);
   const int last = static_cast<int>(film_.steps.size()) - 1;
-  settings.film_step = std::max(0, std::min(settings.film_step, last));
+  settings.film_step = std::max(0, std::min(last, settings.film_step));
 }
 
 void Session::forgetPlanes()
@@ -321,14 +332,34 @@ void Session::forgetPlanes()
   settings.hidden.clear();
 }
 
+std::string Session::parameterFile() const
+{
+  return parameter_file_.empty() ? "viewer_parameters.txt" : parameter_file_;
+}
+
 void Session::saveParameters()
 {
-  message_ = "parameter files are not there yet";
+  try {
+    apps::writeParameterFile(parameterFile(), {profileName(profile_), parameters_});
+    message_ = "parameters are in " + parameterFile();
+  }
+  catch (const std::exception& error) {
+    message_ = error.what();
+  }
 }
 
 void Session::loadParameters()
 {
-  message_ = "parameter files are not there yet";
+  try {
+    const apps::ParameterSet set = apps::readParameterFile(parameterFile());
+    profile_ = apps::profileFromName(set.profile);
+    setParameters(set.parameters);
+    if (message_.empty())
+      message_ = "parameters of " + parameterFile();
+  }
+  catch (const std::exception& error) {
+    message_ = error.what();
+  }
 }
 
 } // namespace pcl_mrf_planes::viewer

@@ -4,7 +4,6 @@
 #include "actions.h"
 #include "algorithm_film.h"
 #include "parameter_sliders.h"
-#include "plane_colours.h"
 #include "segmented_view.h"
 #include "view_settings.h"
 
@@ -54,6 +53,7 @@ public:
   bool compares() const { return settings.comparison != Comparison::OFF; }
   const std::vector<std::uint32_t>& mainColours() const { return main_colours_; }
   const std::vector<std::uint32_t>& otherColours() const { return other_colours_; }
+  /// For the tiles, their fit error and the film; empty while none of them is seen.
   const TileCells& tiles() const { return tiles_; }
   const AlgorithmFilm& film() const { return film_; }
   const FilmStep* filmStep() const;
@@ -76,10 +76,10 @@ private:
   void nextProfile();
   void segment();
   void compare();
-  void updateTiles();
-  void updateFilm();
+  void updateStages();
   void step(int by);
   void forgetPlanes();
+  std::string parameterFile() const;
   void saveParameters();
   void loadParameters();
 
@@ -90,8 +90,7 @@ private:
   Profile profile_;
   SegmentedView main_;
   SegmentedView other_;
-  PlaneColours main_classes_;
-  PlaneColours other_classes_;
+  apps::ColourTrack track_;
   std::vector<std::uint32_t> main_colours_;
   std::vector<std::uint32_t> other_colours_;
   TileCells tiles_;

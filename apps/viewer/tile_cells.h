@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "view_frame.h"
+#include <pcl_mrf_planes/segmentation_stages.h>
 
-#include <pcl_mrf_planes/parameters.h>
-#include <pcl_mrf_planes/plane_clustering.h>
-#include <pcl_mrf_planes/tile_plane_detection.h>
+#include <cstdint>
+#include <vector>
 
 namespace pcl_mrf_planes::viewer {
 
-/** \brief The image of planar fits of a frame, and what each tile merged into. */
+/** \brief The tiles of a frame, as the method of the parameters looked at them, and what
+ * each merged into. */
 struct TileCells {
-  TileImage image;
-  PlaneClusters clusters; ///< assignment of every tile: label plane, or NONE
+  std::vector<StageTile> tiles;
+  std::vector<int> tile_of_point;     ///< -1: in no tile
+  std::vector<std::uint32_t> classes; ///< colour of each merged plane
 
-  /** \brief Label of the tile of point (x, y): 0 was not kept, k the plane k - 1. */
-  std::uint16_t labelAt(int x, int y) const;
+  /** \brief Labels of all points by their tiles: 0 not kept, k merged plane k - 1. */
+  std::vector<std::uint16_t> mergedLabels() const;
 };
 
-/** \brief Fit and merge the tiles of a frame, sections IV-A and IV-B of the paper. */
-TileCells fitTiles(const ViewFrame& frame, const Parameters& parameters);
+/** \brief The tiles of recorded stages; where tiles lie in each other, the kept one that
+ * was recorded first counts. \a classes stays empty */
+TileCells tilesOf(const SegmentationStages& stages);
 
 } // namespace pcl_mrf_planes::viewer

@@ -40,13 +40,12 @@ bool findCorner(const ViewFrame& frame, int x, int y, int to_x, int to_y,
   return false;
 }
 
-bool cornersOf(const ViewFrame& frame, const TileImage& image, int column, int row,
-               Corners& corners)
+bool cornersOf(const ViewFrame& frame, const StageTile& tile, Corners& corners)
 {
-  const int left = column * image.tile_width;
-  const int top = row * image.tile_height;
-  const int right = std::min(left + image.tile_width, frame.points.width) - 1;
-  const int bottom = std::min(top + image.tile_height, frame.points.height) - 1;
+  const int left = tile.x;
+  const int top = tile.y;
+  const int right = left + tile.width - 1;
+  const int bottom = top + tile.height - 1;
   const std::array<std::array<int, 2>, 4> places = {
       {{left, top}, {right, top}, {right, bottom}, {left, bottom}}};
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -92,16 +91,15 @@ Props tileLayer(const ViewFrame& frame, const TileCells& cells)
   vtkNew<vtkCellArray> kept, refused;
   vtkNew<vtkUnsignedCharArray> shades;
   shades->SetNumberOfComponents(3);
-  for (std::size_t t = 0; t < cells.image.tiles.size(); ++t) {
-    const int column = static_cast<int>(t) % cells.image.columns;
-    const int row = static_cast<int>(t) / cells.image.columns;
+  for (const StageTile& tile : cells.tiles) {
     Corners corners;
-    if (!cornersOf(frame, cells.image, column, row, corners))
+    if (!cornersOf(frame, tile, corners))
       continue;
-    const int plane = cells.clusters.assignment[t];
-    addCell(corners, plane < 0, points, plane < 0 ? refused : kept);
-    if (plane >= 0) {
-      const io::Colour c = apps::labelColour(static_cast<std::uint32_t>(plane + 1));
+    const bool merged = tile.merged != StageTile::NONE;
+    addCell(corners, !merged, points, merged ? kept : refused);
+    if (merged) {
+      const io::Colour c =
+          apps::labelColour(cells.classes[static_cast<std::size_t>(tile.merged)]);
       shades->InsertNextTuple3(c[0], c[1], c[2]);
     }
   }

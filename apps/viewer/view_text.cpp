@@ -27,8 +27,8 @@ std::string factsText(const Session& session)
   }
   out << '\n';
   if (const FilmStep* step = session.filmStep()) {
-    out << "the paper's method, step " << session.settings.film_step + 1 << " of "
-        << session.film().steps.size() << ": " << step->title << '\n'
+    out << session.main().method << ", step " << session.settings.film_step + 1
+        << " of " << session.film().steps.size() << ": " << step->title << '\n'
         << step->note << '\n';
     return out.str();
   }
@@ -60,9 +60,8 @@ std::string selectionText(const Session& session)
   if (settings.selected == 0 || settings.selected > view.planes.size())
     return picked ? out.str() + "on no plane\n" : std::string();
   const ViewPlane& plane = view.planes[settings.selected - 1u];
-  out << "plane " << settings.selected << ": " << plane.normal.x() << " x + "
-      << plane.normal.y() << " y + " << plane.normal.z() << " z + " << plane.d
-      << " = 0\n"
+  out << "plane " << settings.selected << ": a b c d = " << plane.normal.x() << ' '
+      << plane.normal.y() << ' ' << plane.normal.z() << ' ' << plane.d << '\n'
       << plane.points << " points, " << plane.area << " m2, rms " << 1000.0 * plane.rms
       << " mm\n";
   if (picked) {
