@@ -6,11 +6,13 @@
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
 #include <vtkPlotPoints.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
@@ -31,6 +33,18 @@ void dressAxis(vtkAxis* axis, const char* title, double low, double high, bool d
   const auto gray = static_cast<unsigned char>(dark ? 230 : 30);
   axis->GetPen()->SetColor(gray, gray, gray);
   axis->GetGridPen()->SetColor(128, 128, 128, 90);
+}
+
+/// Whole numbers only: there is nothing between two iterations.
+void countIterations(vtkAxis* axis, int last)
+{
+  vtkNew<vtkDoubleArray> places;
+  vtkNew<vtkStringArray> names;
+  for (int k = 0; k <= last; k += std::max(1, last / 8)) {
+    places->InsertNextValue(k);
+    names->InsertNextValue(std::to_string(k));
+  }
+  axis->SetCustomTickPositions(places, names);
 }
 
 } // namespace
@@ -54,7 +68,8 @@ vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int show
   const auto plate = static_cast<unsigned char>(dark ? 0 : 255);
   chart->GetBackgroundBrush()->SetColor(plate, plate, plate, 190);
   if (count > 0) {
-    vtkPlot* plot = chart->AddPlot(vtkChart::LINE);
+    // A line needs two points.
+    vtkPlot* plot = chart->AddPlot(count > 1 ? vtkChart::LINE : vtkChart::POINTS);
     plot->SetInputData(table, 0, 1);
     plot->SetColor(230, 159, 0, 255); // orange of Okabe and Ito, on dark and on light
     plot->SetWidth(3.0f);
@@ -68,6 +83,7 @@ vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int show
   dressAxis(chart->GetAxis(vtkAxis::BOTTOM), "iterations", 0.0,
             std::max(1.0, static_cast<double>(energy.size()) - 1.0), dark);
   dressAxis(chart->GetAxis(vtkAxis::LEFT), "energy", low - margin, high + margin, dark);
+  countIterations(chart->GetAxis(vtkAxis::BOTTOM), static_cast<int>(energy.size()) - 1);
   auto actor = vtkSmartPointer<vtkContextActor>::New();
   actor->GetScene()->AddItem(chart);
   return actor;

@@ -37,9 +37,12 @@ Screen::Screen(int width, int height, bool off_screen)
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
     renderer->SetLayer(part == OVERLAY ? 2 : part >= IMAGE ? 1 : 0);
     renderer->SetInteractive(part <= RIGHT ? 1 : 0);
-    window()->AddRenderer(renderer);
+    if (part == IMAGE || part == CHART) // plates of their own
+      renderer->PreserveColorBufferOff();
     renderers_[static_cast<std::size_t>(part)] = renderer;
   }
+  include(LEFT, true);
+  include(OVERLAY, true);
   renderers_[RIGHT]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
   renderers_[IMAGE]->SetViewport(0.66, 0.03, 0.985, 0.37);
   renderers_[CHART]->SetViewport(0.60, 0.55, 0.985, 0.97);
@@ -53,17 +56,35 @@ vtkRenderWindow* Screen::window()
   return visualizer_->getRenderWindow();
 }
 
+void Screen::include(Part part, bool wanted)
+{
+  // A renderer that is in the window clears its part of it, even if it draws nothing.
+  vtkRenderer* renderer = renderers_[part];
+  const bool is_in = window()->HasRenderer(renderer) != 0;
+  if (wanted && !is_in)
+    window()->AddRenderer(renderer);
+  else if (!wanted && is_in)
+    window()->RemoveRenderer(renderer);
+}
+
 void Screen::show(Part part, const Props& props)
 {
   vtkRenderer* renderer = renderers_[part];
-  renderer->RemoveAllViewProps();
+  for (const auto& prop : shown_[part]) // the sliders' stay
+    renderer->RemoveViewProp(prop);
+  shown_[part] = props;
   for (const auto& prop : props)
     renderer->AddViewProp(prop);
-  renderer->SetDraw(props.empty() && part > RIGHT ? 0 : 1);
+  if (part == IMAGE || part == CHART)
+    include(part, !props.empty());
   if (part == IMAGE && !props.empty()) {
     renderer->GetActiveCamera()->ParallelProjectionOn();
     renderer->ResetCamera();
-    renderer->GetActiveCamera()->Zoom(1.35); // ResetCamera() leaves a wide margin
+    const double* bounds = props.front()->GetBounds();
+    const int* size = renderer->GetSize();
+    const double aspect = 1.0 * size[0] / std::max(1, size[1]);
+    renderer->GetActiveCamera()->SetParallelScale(
+        0.51 * std::max(bounds[3] - bounds[2], (bounds[1] - bounds[0]) / aspect));
   }
 }
 
@@ -72,11 +93,13 @@ void Screen::arrange(bool side_by_side, bool dark)
   side_by_side_ = side_by_side;
   renderers_[LEFT]->SetViewport(0.0, 0.0, side_by_side ? 0.5 : 1.0, 1.0);
   renderers_[RIGHT]->SetViewport(0.5, 0.0, 1.0, 1.0);
-  renderers_[RIGHT]->SetDraw(side_by_side ? 1 : 0);
-  renderers_[RIGHT]->SetInteractive(side_by_side ? 1 : 0);
+  include(RIGHT, side_by_side);
   const double shade = dark ? 0.08 : 1.0;
   renderers_[LEFT]->SetBackground(shade, shade, shade);
   renderers_[RIGHT]->SetBackground(shade, shade, shade);
+  const double plate = dark ? 0.0 : 0.93;
+  renderers_[IMAGE]->SetBackground(plate, plate, plate);
+  renderers_[CHART]->SetBackground(plate, plate, plate);
 }
 
 void Screen::look(const SensorView& view)

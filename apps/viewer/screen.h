@@ -40,8 +40,11 @@ public:
   void look(const SensorView& view);
 
 private:
+  void include(Part part, bool wanted);
+
   pcl::shared_ptr<pcl::visualization::PCLVisualizer> visualizer_;
   std::array<vtkSmartPointer<vtkRenderer>, PARTS> renderers_;
+  std::array<Props, PARTS> shown_;
   bool side_by_side_ = false;
 };
 

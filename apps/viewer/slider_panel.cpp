@@ -12,7 +12,10 @@
 #include <vtkSmartPointer.h>
 #include <vtkTextProperty.h>
 
+#include <iomanip>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -49,6 +52,8 @@ void dress(vtkSliderRepresentation2D* look, bool dark)
     text->ShadowOff();
     text->ItalicOff();
     text->BoldOff();
+    text->SetBackgroundColor(1.0 - shade, 1.0 - shade, 1.0 - shade);
+    text->SetBackgroundOpacity(0.75);
   }
   look->GetTubeProperty()->SetColor(0.5, 0.5, 0.5);
   look->GetCapProperty()->SetColor(0.5, 0.5, 0.5);
@@ -61,6 +66,14 @@ void dress(vtkSliderRepresentation2D* look, bool dark)
   look->SetEndCapWidth(0.018);
   look->SetTitleHeight(0.018);
   look->SetLabelHeight(0.017);
+}
+
+std::string titleOf(const ParameterSlider& slider, double value)
+{
+  std::ostringstream text;
+  text << slider.title << ": " << std::fixed
+       << std::setprecision(slider.whole || value >= 100.0 ? 0 : 3) << value;
+  return text.str();
 }
 
 } // namespace
@@ -94,8 +107,7 @@ void SliderPanel::Parts::addWidget(const ParameterSlider& slider, std::size_t in
   vtkNew<vtkSliderRepresentation2D> look;
   look->SetMinimumValue(slider.low);
   look->SetMaximumValue(slider.high);
-  look->SetTitleText(slider.title.c_str());
-  look->SetLabelFormat(slider.whole ? "%0.f" : "%0.3g");
+  look->ShowSliderLabelOff(); // the value stands in the title
   look->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedDisplay();
   look->GetPoint1Coordinate()->SetValue(LEFT, y);
   look->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
@@ -129,7 +141,9 @@ void SliderPanel::show(bool visible, const Parameters& parameters, bool dark)
     auto* look = static_cast<vtkSliderRepresentation2D*>(widget->GetRepresentation());
     if (visible) {
       dress(look, dark);
-      look->SetValue(slidersOf(parameters.method)[k].get(parameters));
+      const ParameterSlider& slider = slidersOf(parameters.method)[k];
+      look->SetValue(slider.get(parameters));
+      look->SetTitleText(titleOf(slider, slider.get(parameters)).c_str());
     }
     if ((widget->GetEnabled() != 0) != visible)
       widget->SetEnabled(visible ? 1 : 0);

@@ -80,6 +80,10 @@ vtkSmartPointer<vtkActor> flatActor(vtkPolyData* data, double opacity)
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetOpacity(opacity);
   actor->GetProperty()->SetColor(0.6, 0.6, 0.6);
+  // In front of the points that they lie on.
+  mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -66000.0);
+  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -66000.0);
   return actor;
 }
 
@@ -109,7 +113,7 @@ Props tileLayer(const ViewFrame& frame, const TileCells& cells)
   filled->GetCellData()->SetScalars(shades);
   outlines->SetPoints(points);
   outlines->SetLines(refused);
-  return {flatActor(filled, 0.75), flatActor(outlines, 1.0)};
+  return {flatActor(filled, 1.0), flatActor(outlines, 1.0)};
 }
 
 } // namespace pcl_mrf_planes::viewer

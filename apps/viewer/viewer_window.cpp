@@ -105,9 +105,16 @@ void ViewerWindow::Parts::drawLeft()
     return;
   }
   Props props = view(session.main(), session.mainColours(), settings, left);
-  if (settings.tiles)
+  if (settings.tiles) {
+    // Dim points between the tiles, in the place of bright ones.
+    PointColours dim = left;
+    for (io::Colour& colour : dim.colours)
+      for (std::uint8_t& channel : colour)
+        channel = static_cast<std::uint8_t>(channel / 3);
+    props[0] = cloudLayer(session.frame(), dim);
     for (const auto& prop : tileLayer(session.frame(), session.tiles()))
       props.push_back(prop);
+  }
   screen.show(Screen::LEFT, props);
 }
 
@@ -176,7 +183,6 @@ void ViewerWindow::Parts::draw()
   if (sliders)
     sliders->show(session.settings.sliders && !session.settings.help,
                   session.parameters(), session.settings.dark);
-  screen.renderer(Screen::OVERLAY)->SetDraw(1);
   screen.renderer(Screen::LEFT)->ResetCameraClippingRange();
   screen.window()->Render();
 }
