@@ -22,7 +22,8 @@ const std::map<std::string, FrameOutput>& outputNames()
   static const std::map<std::string, FrameOutput> names = {
       {"cloud", FrameOutput::CLOUD},     {"labels", FrameOutput::LABELS},
       {"overlay", FrameOutput::OVERLAY}, {"masks", FrameOutput::MASKS},
-      {"ply", FrameOutput::PLY},         {"truth", FrameOutput::TRUTH}};
+      {"ply", FrameOutput::PLY},         {"truth", FrameOutput::TRUTH},
+      {"figure", FrameOutput::FIGURE}};
   return names;
 }
 
@@ -33,9 +34,10 @@ std::set<FrameOutput> parseOutputs(const std::string& text)
   for (std::string name; std::getline(stream, name, ',');) {
     const auto found = outputNames().find(name);
     if (found == outputNames().end())
-      throw UsageError("--write has '" + name +
-                       "'; choose of cloud, labels, overlay, masks, ply, truth, with "
-                       "commas between");
+      throw UsageError(
+          "--write has '" + name +
+          "'; choose of cloud, labels, overlay, masks, ply, truth, figure, with "
+          "commas between");
     outputs.insert(found->second);
   }
   return outputs;
@@ -65,7 +67,8 @@ po::options_description batchOptions()
        "with commas between: cloud (NAME.pcd), labels (NAME.labels.png), overlay "
        "(NAME.overlay.png), masks (NAME.masks/plane_001.png ...), ply (NAME.ply), "
        "truth "
-       "(NAME.gt.png, where the data set has it) (default: labels)")                 //
+       "(NAME.gt.png, where the data set has it), figure (NAME.figure.png) (default: "
+       "labels)")                                                                    //
       ("inputs-from", text("FILE"), "take more inputs from a file, one a line")      //
       ("jobs", text("COUNT"), "frames at a time, 0: one for each core (default: 1)") //
       ("shard", text("I/N"), "only every N-th frame, from the I-th on")              //

@@ -9,7 +9,7 @@
 namespace pcl_mrf_planes::apps {
 
 /** \brief Files that a batch can write for each frame beside its JSON. */
-enum class FrameOutput { CLOUD, LABELS, OVERLAY, MASKS, PLY, TRUTH };
+enum class FrameOutput { CLOUD, LABELS, OVERLAY, MASKS, PLY, TRUTH, FIGURE };
 
 /** \brief What the command line says about many frames in one call. */
 struct BatchOptions {

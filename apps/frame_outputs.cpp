@@ -4,6 +4,7 @@
 #include "output_file.h"
 #include "pictures.h"
 #include "plane_files.h"
+#include "profile_figure.h"
 #include "region_files.h"
 #include "report_json.h"
 
@@ -39,7 +40,8 @@ OutputFiles outputsOf(const Options& options)
           options.overlay,
           options.masks,
           options.ply,
-          ""};
+          "",
+          options.figure};
 }
 
 OutputFiles outputsOf(const std::string& frame_name, const BatchOptions& options)
@@ -56,21 +58,23 @@ OutputFiles outputsOf(const std::string& frame_name, const BatchOptions& options
   files.masks = wanted(FrameOutput::MASKS, ".masks");
   files.ply = wanted(FrameOutput::PLY, ".ply");
   files.truth = wanted(FrameOutput::TRUTH, ".gt.png");
+  files.figure = wanted(FrameOutput::FIGURE, ".figure.png");
   return files;
 }
 
 void checkOutputs(const OutputFiles& files)
 {
   for (const std::string& path : {files.cloud, files.models, files.label_image,
-                                  files.overlay, files.ply, files.truth})
+                                  files.overlay, files.ply, files.truth, files.figure})
     if (!path.empty())
       checkWritable(path);
 }
 
 bool outputsExist(const OutputFiles& files)
 {
-  for (const std::string& path : {files.cloud, files.models, files.label_image,
-                                  files.overlay, files.masks, files.ply}) {
+  for (const std::string& path :
+       {files.cloud, files.models, files.label_image, files.overlay, files.masks,
+        files.ply, files.figure}) {
     std::error_code error;
     if (!path.empty() && !fs::exists(path, error))
       return false;
@@ -93,6 +97,9 @@ void writeOutputs(const OutputFiles& files, const SegmentedFrame& segmented,
     writeMasks(files.masks, result);
   if (!files.ply.empty())
     writeColouredPly(files.ply, segmented.cloud, result.labels);
+  if (!files.figure.empty())
+    writePicture(files.figure, profileFigure(segmented.cloud, segmented.frame.colours,
+                                             options.parameters));
   if (!files.truth.empty())
     writeTruth(files.truth, segmented);
   writeRegionFiles(options.regions, file, result.labels, result.analysis);

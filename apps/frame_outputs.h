@@ -20,6 +20,7 @@ struct OutputFiles {
   std::string masks; ///< a folder
   std::string ply;
   std::string truth;
+  std::string figure;
 };
 
 /** \brief Those that the options of a single frame name. */

@@ -1,42 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace pcl_mrf_planes::apps {
 
 /** \brief Colour of a hue (degrees, any value), saturation and lightness (0 to 1). */
-inline std::array<std::uint8_t, 3> colourFromHue(double hue, double saturation,
-                                                 double lightness)
-{
-  const double reach = saturation * std::min(lightness, 1.0 - lightness);
-  const auto channel = [&](double shift) {
-    double k = std::fmod(shift + hue / 30.0, 12.0);
-    if (k < 0.0)
-      k += 12.0;
-    const double ramp = std::max(-1.0, std::min({k - 3.0, 9.0 - k, 1.0}));
-    return static_cast<std::uint8_t>(std::lround(255.0 * (lightness - reach * ramp)));
-  };
-  return {channel(0.0), channel(8.0), channel(4.0)};
-}
+std::array<std::uint8_t, 3> colourFromHue(double hue, double saturation,
+                                          double lightness);
 
-/** \brief Colour of a label, the same in every picture and for any label.
+/** \brief So many labels, from 1, have colours chosen to be as far apart as can be. */
+constexpr std::uint32_t CHOSEN_COLOURS = 128;
+
+/** \brief So many colours there are: more labels than a 16-bit image can hold. */
+constexpr std::uint32_t MOST_COLOURS = 65536;
+
+/** \brief Colour of a label, the same in every picture; all labels below MOST_COLOURS have
+ * different ones, those above begin anew.
  *
- * Hues go round by the golden angle, so that labels that follow each other differ most;
- * lightness takes three values in turn, which tells near hues apart. Label 0, no plane,
- * is gray.
+ * Label 0, no plane, is gray, and no other label is. The first CHOSEN_COLOURS are chosen
+ * one after the other, each as far as can be from gray and from all before it in OKLab, at
+ * the least of normal vision, protanopia, deuteranopia and, with less weight, tritanopia
+ * (colour_vision.h); so the first ones differ most. All stand out from black (contrast of 3 or more by WCAG
+ * 2) and from white (1.7 or more).
+ *
+ * The list is made once, in some hundredths of a second; safe from any thread.
  */
-inline std::array<std::uint8_t, 3> labelColour(std::uint32_t label)
-{
-  if (label == 0)
-    return {128, 128, 128};
-  constexpr double GOLDEN_ANGLE = 137.50776405003785; // degrees
-  constexpr double LIGHTNESS[] = {0.55, 0.42, 0.70};
-  const std::uint32_t k = label - 1;
-  return colourFromHue(std::fmod(k * GOLDEN_ANGLE, 360.0), 0.85, LIGHTNESS[k % 3]);
-}
+std::array<std::uint8_t, 3> labelColour(std::uint32_t label);
 
 } // namespace pcl_mrf_planes::apps

@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 #include "input_options.h"
+#include "parameter_file.h"
 
 #include <boost/program_options.hpp>
 
@@ -31,11 +32,22 @@ po::options_description fileOptions()
        "write a picture of three panels: colour, depth (invalid points black), "
        "labels")                                                                   //
       ("masks", text("FOLDER"), "write a picture for each plane into this folder") //
+      ("figure", text("FILE.png"),
+       "write a picture of two rows, colour, depth, labels: profile paper, and profile "
+       "default under it") //
+      ("stages", text("FOLDER"),
+       "write pictures of the tiles and of the labels after every stage and iteration, "
+       "and tables of tiles and energies, into this folder")                       //
       ("ply", text("FILE.ply"), "write the points in the colours of their labels") //
       ("format", text("ascii|binary|binary_compressed"),
        "encoding of OUT.pcd (default: that of IN, or binary_compressed)") //
       ("config", text("FILE"),
-       "take options from a file with lines name=value; the command line wins");
+       "take options from a file with lines name=value; the command line wins") //
+      ("parameters", text("FILE"),
+       "take profile and parameters from a file with lines NAME = VALUE, as the next "
+       "option writes it; other options win") //
+      ("save-parameters", text("FILE"),
+       "write the parameters in use; no input is needed for it");
   return files;
 }
 
@@ -133,9 +145,22 @@ void readParameters(const std::vector<ParameterOption>& known,
   }
 }
 
+/// Values that the options start from: a file's, or the profile's.
+void startParameters(const po::variables_map& values, Options& options)
+{
+  const std::string path = given(values, "parameters");
+  if (path.empty()) {
+    options.parameters = Parameters::fromProfile(profileFromName(options.profile));
+    return;
+  }
+  const ParameterSet set = readParameterFile(path, given(values, "profile"));
+  options.profile = set.profile;
+  options.parameters = set.parameters;
+}
+
 void readParameters(const po::variables_map& values, Options& options)
 {
-  options.parameters = Parameters::fromProfile(profileFromName(options.profile));
+  startParameters(values, options);
   const bool paper = options.parameters.method == Method::PAPER;
   readParameters(commonParameterOptions(), values, options.parameters);
   readParameters(parameterOptions(options.parameters.method), values,
@@ -157,7 +182,9 @@ void checkFileNames(const Options& options)
       {"--models", options.models},
       {"--label-image", options.label_image},
       {"--overlay", options.overlay},
-      {"--ply", options.ply}};
+      {"--ply", options.ply},
+      {"--figure", options.figure},
+      {"--save-parameters", options.save_parameters}};
   for (const auto& file : options.regions.files())
     outputs.push_back(file);
   for (std::size_t i = 1; i < outputs.size(); ++i)
@@ -197,6 +224,8 @@ void readBatchInputs(const std::vector<std::string>& files, Options& options)
         std::make_pair("rest", options.regions.rest),
         std::make_pair("label-image", options.label_image),
         std::make_pair("overlay", options.overlay),
+        std::make_pair("figure", options.figure),
+        std::make_pair("stages", options.stages),
         std::make_pair("masks", options.masks), std::make_pair("ply", options.ply)})
     if (!output.second.empty())
       throw UsageError(std::string("--") + output.first +
@@ -211,6 +240,11 @@ void readFileNames(const po::variables_map& values, Options& options)
   options.overlay = given(values, "overlay");
   options.masks = given(values, "masks");
   options.ply = given(values, "ply");
+  options.figure = given(values, "figure");
+  options.stages = given(values, "stages");
+  options.save_parameters = given(values, "save-parameters");
+  if (options.onlySavesParameters(files.size()))
+    return;
   if (options.batch.active())
     return readBatchInputs(files, options);
   if (files.empty())
@@ -223,9 +257,11 @@ void readFileNames(const po::variables_map& values, Options& options)
     options.output = files[1];
   if (options.output.empty() && options.models.empty() && options.label_image.empty() &&
       options.overlay.empty() && options.masks.empty() && options.ply.empty() &&
-      !options.timing && !options.regions.writesFiles())
-    throw UsageError("nothing to write; name OUT.pcd, or give --models, --label-image, "
-                     "--overlay, --masks, --ply, --timing or --output-folder");
+      options.save_parameters.empty() && options.figure.empty() &&
+      options.stages.empty() && !options.timing && !options.regions.writesFiles())
+    throw UsageError(
+        "nothing to write; name OUT.pcd, or give --models, --label-image, "
+        "--overlay, --figure, --stages, --masks, --ply, --timing or --output-folder");
   checkFileNames(options);
 }
 

@@ -29,6 +29,9 @@ struct Options {
   std::string overlay;
   std::string masks; ///< a folder
   std::string ply;
+  std::string save_parameters;
+  std::string stages; ///< a folder
+  std::string figure;
   int repeat = 1;
   bool wrap = false; ///< the last column is the neighbour of the first
   bool timing = false;
@@ -36,6 +39,12 @@ struct Options {
   std::string profile = "default";
   Parameters parameters;
   RegionOptions regions;
+
+  /** \brief Whether nothing is to be segmented, of so many input files. */
+  bool onlySavesParameters(std::size_t files) const
+  {
+    return files == 0 && !save_parameters.empty() && !batch.active();
+  }
 };
 
 /** \brief Read the command line and the configuration file it names.

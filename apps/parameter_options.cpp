@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parameter_options.h"
 
+#include <pcl_mrf_planes/parameter_table.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,17 +38,6 @@ Enum parseName(const std::string& option, const std::string& text,
 
 const Names<Profile> PROFILES = {
     {"default", Profile::DEFAULT}, {"fast", Profile::FAST}, {"paper", Profile::PAPER}};
-const Names<PlaneFit> FITS = {{"algebraic", PlaneFit::ALGEBRAIC},
-                              {"geometric", PlaneFit::GEOMETRIC}};
-const Names<DepthMeasure> DEPTHS = {{"auto", DepthMeasure::AUTO},
-                                    {"z", DepthMeasure::OPTICAL_AXIS},
-                                    {"range", DepthMeasure::RANGE}};
-const Names<Smoothness> SMOOTHNESSES = {
-    {"potts", Smoothness::POTTS},
-    {"dissimilarity", Smoothness::DISSIMILARITY},
-    {"hybrid", Smoothness::HYBRID},
-    {"predicted-depth", Smoothness::PREDICTED_DEPTH}};
-const Names<bool> SWITCH = {{"true", true}, {"false", false}};
 
 NoiseModel parseNoise(const std::string& option, const std::string& text)
 {
@@ -85,165 +76,70 @@ std::string printNoise(const NoiseModel& noise)
   return printReal(noise.a) + ',' + printReal(noise.b) + ',' + printReal(noise.c);
 }
 
-/// The part of the parameters that a member belongs to.
-template <typename Owner, typename All>
-auto& part(All& parameters)
+/// Choices as people say them: true comes first.
+std::vector<std::string> namesOf(const ParameterEntry& entry)
 {
-  if constexpr (std::is_same_v<Owner, AdaptiveParameters>)
-    return parameters.adaptive;
+  std::vector<std::string> names = entry.choices;
+  if (!names.empty() && names.front() == "false")
+    std::reverse(names.begin(), names.end());
+  return names;
+}
+
+void checkRange(const ParameterEntry& entry, const std::string& name, double value)
+{
+  if (!(value >= entry.low && value <= entry.high))
+    throw UsageError("--" + name + " is " + printReal(value) +
+                     "; choose a value from " + printReal(entry.low) + " to " +
+                     printReal(entry.high));
+}
+
+/// Text into the value of an entry.
+void parseEntry(const ParameterEntry& entry, const std::string& name,
+                const std::string& text, Parameters& parameters)
+{
+  double value = 0.0;
+  if (!entry.choices.empty()) {
+    const auto found = std::find(entry.choices.begin(), entry.choices.end(), text);
+    if (found == entry.choices.end())
+      throw UsageError("--" + name + " is '" + text + "'; choose one of " +
+                       join(namesOf(entry)));
+    value = static_cast<double>(found - entry.choices.begin());
+  }
+  else if (entry.isWhole())
+    value = parseInteger(name, text, std::numeric_limits<int>::min(),
+                         std::numeric_limits<int>::max());
   else
-    return parameters;
+    value = parseReal(name, text);
+  checkRange(entry, name, value);
+  entry.set(parameters, value);
 }
 
-template <typename Owner>
-ParameterOption real(const char* name, double Owner::*value, const char* argument,
-                     const char* help)
+/// The option of an entry of the table.
+ParameterOption optionOf(const ParameterEntry& entry)
 {
-  return {name, argument, help,
-          [=](Parameters& p, const std::string& text) {
-            part<Owner>(p).*value = parseReal(name, text);
+  std::string name = entry.name == "number_of_threads" ? "threads"
+                     : entry.name == "depth_measure"   ? "depth"
+                     : entry.name == "compute_energy"  ? "energy"
+                                                       : entry.name;
+  std::replace(name.begin(), name.end(), '_', '-');
+  const bool is_switch = name == "energy"; // as an option, given or not
+  const std::string argument = is_switch               ? ""
+                               : entry.choices.empty() ? entry.unit
+                                                       : join(namesOf(entry), "|");
+  return {name, argument, entry.help,
+          [&entry, name](Parameters& p, const std::string& text) {
+            parseEntry(entry, name, text, p);
           },
-          [=](const Parameters& p) { return printReal(part<Owner>(p).*value); }};
+          [&entry](const Parameters& p) { return entry.print(p); }};
 }
 
-template <typename Owner>
-ParameterOption integer(const char* name, int Owner::*value, const char* argument,
-                        const char* help)
+std::vector<ParameterOption> optionsOf(ParameterUse use)
 {
-  return {name, argument, help,
-          [=](Parameters& p, const std::string& text) {
-            part<Owner>(p).*value =
-                parseInteger(name, text, std::numeric_limits<int>::min(),
-                             std::numeric_limits<int>::max());
-          },
-          [=](const Parameters& p) { return std::to_string(part<Owner>(p).*value); }};
-}
-
-template <typename Owner, typename Enum>
-ParameterOption choice(const char* name, Enum Owner::*value, const Names<Enum>& names,
-                       const char* help)
-{
-  const bool is_switch =
-      std::is_same_v<Enum, bool> && std::is_same_v<Owner, Parameters>;
-  return {name, is_switch ? "" : join(words(names), "|"), help,
-          [=](Parameters& p, const std::string& text) {
-            part<Owner>(p).*value = parseName(name, text, names);
-          },
-          [=](const Parameters& p) {
-            for (const auto& entry : names)
-              if (entry.second == part<Owner>(p).*value)
-                return entry.first;
-            return std::string();
-          }};
-}
-
-} // namespace
-
-namespace {
-
-/// What Method::ADAPTIVE takes.
-std::vector<ParameterOption> adaptiveOptions()
-{
-  using A = AdaptiveParameters;
-  return {
-      integer("sampling", &A::sampling, "STEP",
-              "every so many-th point and row is segmented, the others follow them"),
-      integer("levels", &A::levels, "COUNT", "tile sizes, each twice the one before"),
-      integer("smallest-level", &A::smallest_level, "COUNT",
-              "tile sizes that are left out, from 4 points on"),
-      real("tile-tolerance", &A::tile_tolerance, "SIGMAS",
-           "rms distance that a tile may have"),
-      real("min-fill", &A::min_fill, "SHARE", "of valid points that a tile needs"),
-      real("noise-percentile", &A::noise_percentile, "SHARE",
-           "percentile of the tiles' rms distances that is the cloud's noise"),
-      real("growth-percentile", &A::growth_percentile, "SHARE",
-           "percentile of the growth of the rms distance from tile size to tile size"),
-      real("max-growth", &A::max_growth, "FACTOR", "largest such growth"),
-      real("long-range", &A::long_range, "FACTOR",
-           "noise of large planes over the largest tiles', if it is correlated"),
-      real("flatness", &A::flatness, "SHARE",
-           "of its extent that a plane may bend; larger takes in warped surfaces"),
-      real("max-flatness", &A::max_flatness, "METRES", "that a plane may bend at most"),
-      real("min-sigma", &A::min_sigma, "METRES", "least noise at 1 m"),
-      integer("local-reach", &A::local_reach, "TILES", "window of the local noise"),
-      real("local-percentile", &A::local_percentile, "SHARE",
-           "percentile of the tiles' rms distances in that window"),
-      real("max-local", &A::max_local, "FACTOR",
-           "local noise over the cloud's, at most"),
-      real("merge-tolerance", &A::merge_tolerance, "SIGMAS",
-           "deviation of the smaller part when planes merge; larger merges more"),
-      real("region-tolerance", &A::region_tolerance, "SIGMAS",
-           "rms distance that a plane may have"),
-      real("accept-tolerance", &A::accept_tolerance, "SIGMAS",
-           "the same for what is labelled"),
-      integer("min-points", &A::min_points, "POINTS",
-              "smallest plane; more are asked for where noise is correlated"),
-      real("min-evidence", &A::min_evidence, "NATS",
-           "points times ln(width / rms distance) that a plane needs; larger keeps "
-           "fewer small ones"),
-      choice("join-coplanar", &A::join_coplanar, SWITCH,
-             "whether parts of one plane behind an occluder share a label"),
-      real("join-tolerance", &A::join_tolerance, "SIGMAS",
-           "merge-tolerance of parts that do not touch"),
-      real("join-gap", &A::join_gap, "FACTOR",
-           "widest gap over the side of the smaller part"),
-      real("join-seen", &A::join_seen, "SHARE",
-           "of the way between them that may be off the plane"),
-      choice("join-over-occluders", &A::join_over_occluders, SWITCH,
-             "whether what stands in front leaves parts joined"),
-      integer("fan-parts", &A::fan_parts, "COUNT",
-              "so many small planes in a row are a curved surface; 0: off"),
-      real("fan-angle", &A::fan_angle, "DEGREES", "largest crease in such a row"),
-      real("fan-share", &A::fan_share, "SHARE",
-           "of the points above which a plane is never taken for curved"),
-      real("fan-border", &A::fan_border, "FACTOR",
-           "common border over the side of the smaller part"),
-      real("fan-gap", &A::fan_gap, "SIGMAS", "step across a smooth border"),
-      real("bend-angle", &A::bend_angle, "DEGREES",
-           "turn of the normal that makes a region curved, if nothing else is in it"),
-      integer("support-reach", &A::support_reach, "4 POINTS",
-              "how far from its cells a plane competes"),
-      real("none-cost", &A::none_cost, "SIGMAS",
-           "cost of a point on no plane; larger labels more"),
-      real("label-change", &A::label_change, "SIGMAS",
-           "price of a label change on a smooth surface"),
-      real("step-sigmas", &A::step_sigmas, "SIGMAS",
-           "depth step over which that price falls"),
-      real("min-weight", &A::min_weight, "SHARE", "of that price left across a step"),
-      integer("passes", &A::passes, "COUNT",
-              "belief propagation down the image and up again"),
-      integer("rounds", &A::rounds, "COUNT",
-              "of labelling and refitting, all but the last on cells of 4x4 points")};
-}
-
-/// What Method::PAPER takes.
-std::vector<ParameterOption> paperOptions()
-{
-  using P = Parameters;
-  return {
-      integer("tile-width", &P::tile_width, "POINTS", "width of a tile"),
-      integer("tile-height", &P::tile_height, "POINTS", "height of a tile"),
-      choice("fit", &P::fit, FITS, "least-squares fit of a tile's plane"),
-      real("noise-multiplier", &P::noise_multiplier, "FACTOR",
-           "how many sigma a tile's rms distance may reach; larger keeps more tiles"),
-      real("min-valid-share", &P::min_valid_share, "SHARE",
-           "share of a tile's points that must be valid, 0 to 1"),
-      real("beta", &P::beta, "1/M",
-           "weight of the offsets' difference in a plane dissimilarity, per metre"),
-      real("merge-threshold", &P::merge_threshold, "NUMBER",
-           "dissimilarity below which planes are merged; larger merges more"),
-      integer("max-planes", &P::max_planes, "COUNT", "label planes kept at most"),
-      real("lambda", &P::lambda, "1/M", "weight of the data term, per metre"),
-      real("tau", &P::tau, "METRES", "distance at which the data term is cut off"),
-      choice("smoothness", &P::smoothness, SMOOTHNESSES,
-             "price of two labels side by side"),
-      real("gamma", &P::gamma, "NUMBER", "price of a label change for potts"),
-      integer("iterations", &P::iterations, "COUNT",
-              "iterations of belief propagation"),
-      real("convergence-tolerance", &P::convergence_tolerance, "ENERGY",
-           "stop early once no message changes by more; negative: never"),
-      choice("energy", &P::compute_energy, SWITCH,
-             "record the energy of every iteration (slower)")};
+  std::vector<ParameterOption> options;
+  for (const ParameterEntry& entry : parameterTable())
+    if (entry.use == use)
+      options.push_back(optionOf(entry));
+  return options;
 }
 
 void setNoise(Parameters& p, const std::string& text)
@@ -263,27 +159,19 @@ std::string printUsedNoise(const Parameters& p)
              : printNoise(p.noise);
 }
 
+/// With the noise, which is no single number, in the second place.
 std::vector<ParameterOption> commonOptions()
 {
-  using P = Parameters;
-  return {
-      choice("depth", &P::depth_measure, DEPTHS,
-             "what depth is: z of the sensor (cameras), range (rotating lidars)"),
-      {"noise", "auto|NAME|METRES|A,B,C",
-       "sensor noise sigma(z): auto, estimated from the cloud (profile default); " +
-           join(NoiseModel::names()) +
-           "; the same number of metres at every depth; or the coefficients of "
-           "a + b z + c z^2",
-       setNoise, printUsedNoise},
-      integer("min-inliers", &P::min_inliers, "POINTS",
-              "planes with fewer points are dropped"),
-      real("min-area", &P::min_area, "M2", "planes with a smaller area are dropped"),
-      {"threads", "COUNT", "threads to use, 0 for all cores",
-       [](P& p, const std::string& text) {
-         p.number_of_threads =
-             static_cast<unsigned int>(parseInteger("threads", text, 0, 1024));
-       },
-       [](const P& p) { return std::to_string(p.number_of_threads); }}};
+  std::vector<ParameterOption> options = optionsOf(ParameterUse::ALL);
+  options.insert(options.begin() + 1,
+                 {"noise", "auto|NAME|METRES|A,B,C",
+                  "sensor noise sigma(z): auto, estimated from the cloud (profile "
+                  "default); " +
+                      join(NoiseModel::names()) +
+                      "; the same number of metres at every depth; or the "
+                      "coefficients of a + b z + c z^2",
+                  setNoise, printUsedNoise});
+  return options;
 }
 
 } // namespace
@@ -296,8 +184,9 @@ const std::vector<ParameterOption>& commonParameterOptions()
 
 const std::vector<ParameterOption>& parameterOptions(Method method)
 {
-  static const std::vector<ParameterOption> paper = paperOptions();
-  static const std::vector<ParameterOption> adaptive = adaptiveOptions();
+  static const std::vector<ParameterOption> paper = optionsOf(ParameterUse::PAPER);
+  static const std::vector<ParameterOption> adaptive =
+      optionsOf(ParameterUse::ADAPTIVE);
   return method == Method::PAPER ? paper : adaptive;
 }
 

@@ -185,6 +185,30 @@ Picture overlay(const OrganizedPoints& points, const std::vector<Colour>& colour
   return picture;
 }
 
+Picture sight(const OrganizedPoints& points, const std::vector<Colour>& colours)
+{
+  Picture picture(points.width, points.height, BLACK);
+  picture.pixels = colours.empty() ? shading(points) : colours;
+  return picture;
+}
+
+Picture labelPanel(const OrganizedPoints& points, const std::vector<Colour>& colours,
+                   const pcl::PointCloud<pcl::Label>& labels)
+{
+  Picture picture = sight(points, colours);
+  picture.pixels = blendLabels(picture.pixels, labels);
+  return picture;
+}
+
+Picture stack(const Picture& above, const Picture& below)
+{
+  Picture both(std::max(above.width, below.width),
+               above.height + PANEL_GAP + below.height, WHITE);
+  paste(both, 0, 0, above.pixels, above.width);
+  paste(both, 0, above.height + PANEL_GAP, below.pixels, below.width);
+  return both;
+}
+
 OrganizedPoints inSensorFrame(const pcl::PointCloud<pcl::PointXYZ>& cloud,
                               DepthMeasure measure)
 {

@@ -43,6 +43,16 @@ constexpr int PANEL_GAP = 4;
 Picture overlay(const OrganizedPoints& points, const std::vector<Colour>& colours,
                 const pcl::PointCloud<pcl::Label>& labels);
 
+/** \brief The first panel of overlay(): the colours, or the shading in their place. */
+Picture sight(const OrganizedPoints& points, const std::vector<Colour>& colours);
+
+/** \brief The last panel of overlay(): labels over the colours. */
+Picture labelPanel(const OrganizedPoints& points, const std::vector<Colour>& colours,
+                   const pcl::PointCloud<pcl::Label>& labels);
+
+/** \brief A picture above another, with a gap between them. */
+Picture stack(const Picture& above, const Picture& below);
+
 /** \brief The cloud in the frame of its sensor. */
 OrganizedPoints inSensorFrame(const pcl::PointCloud<pcl::PointXYZ>& cloud,
                               DepthMeasure measure);

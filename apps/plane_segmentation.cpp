@@ -6,7 +6,9 @@
 #include "interruption.h"
 #include "options.h"
 #include "output_file.h"
+#include "parameter_file.h"
 #include "segmented_frame.h"
+#include "stage_files.h"
 #include "table.h"
 
 #include <pcl_mrf_planes/io/frame.h>
@@ -64,6 +66,8 @@ int runSingle(const Options& options)
   const io::FrameSource source = singleFrame(options);
   const FrameAndResult all = segmentFrame(source, options);
   writeOutputs(files, {source, all.frame, *all.cloud, all.result}, options);
+  if (!options.stages.empty())
+    writeStages(options.stages, *all.cloud, all.frame.colours, options.parameters);
   if (options.quiet)
     return 0;
   printPlanes(std::cout, all.result);
@@ -73,6 +77,15 @@ int runSingle(const Options& options)
   if (!std::cout.flush())
     throw std::runtime_error("cannot write to standard output");
   return 0;
+}
+
+int run(const Options& options)
+{
+  if (!options.save_parameters.empty())
+    writeParameterFile(options.save_parameters, {options.profile, options.parameters});
+  if (options.onlySavesParameters(options.inputs.size()))
+    return 0;
+  return options.batch.active() ? runBatch(options) : runSingle(options);
 }
 
 } // namespace
@@ -88,7 +101,7 @@ int main(int argc, char* argv[])
     else if (options.version)
       std::cout << PROGRAM << ' ' << PCL_MRF_PLANES_VERSION << '\n';
     else
-      return options.batch.active() ? runBatch(options) : runSingle(options);
+      return run(options);
     return 0;
   }
   catch (const UsageError& error) {

@@ -91,6 +91,19 @@ TEST_F(AnalysisTest, ContoursOfPlanarRegionsMayBeSimplified)
   }
 }
 
+TEST_F(AnalysisTest, StagesEndWithTheResult)
+{
+  segment();
+  pcl_mrf_planes::SegmentationStages stages;
+  segmentation_.computeStages(stages);
+  ASSERT_FALSE(stages.labels.empty());
+  EXPECT_EQ(stages.labels.back().labels, segmentation_.getResult().labels);
+  EXPECT_FALSE(stages.tiles.empty());
+  pcl::MRFPlaneSegmentation<pcl::PointXYZ> without_result;
+  without_result.computeStages(stages);
+  EXPECT_TRUE(stages.labels.empty()) << "cleared";
+}
+
 TEST_F(AnalysisTest, PatchesAreRegionsOfTheirOwnOnRequest)
 {
   segment();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_mrf_planes/parameter_table.h>
 #include <pcl_mrf_planes/parameters.h>
 
 #include <gtest/gtest.h>
@@ -231,6 +232,63 @@ TEST(ParametersTest, TheFirstComplaintIsOneSentenceWithTheRange)
   EXPECT_NE(said.find("-3"), std::string::npos) << "must quote the value: " << said;
   EXPECT_NE(said.find("0"), std::string::npos) << "must state the range: " << said;
   EXPECT_EQ(said.find('\n'), std::string::npos) << "one sentence: " << said;
+}
+
+TEST(ParameterTableTest, EveryEntrySetsItsOwnValueOnly)
+{
+  const Parameters defaults;
+  for (const ParameterEntry& entry : parameterTable()) {
+    Parameters changed;
+    const double other = entry.get(defaults) == entry.high ? entry.low : entry.high;
+    entry.set(changed, other);
+    EXPECT_EQ(entry.get(changed), other) << entry.name;
+    for (const ParameterEntry& rest : parameterTable()) {
+      if (&rest != &entry) {
+        EXPECT_EQ(rest.get(changed), rest.get(defaults))
+            << entry.name << " changes " << rest.name;
+      }
+    }
+  }
+}
+
+TEST(ParameterTableTest, SlidersLieInTheRangeAroundTheValuesOfAllProfiles)
+{
+  for (const ParameterEntry& entry : parameterTable()) {
+    EXPECT_LE(entry.low, entry.usual_low) << entry.name;
+    EXPECT_LT(entry.usual_low, entry.usual_high) << entry.name;
+    EXPECT_LE(entry.usual_high, entry.high) << entry.name;
+    EXPECT_FALSE(entry.help.empty()) << entry.name;
+    for (const Profile profile : {Profile::DEFAULT, Profile::FAST, Profile::PAPER}) {
+      const double value = entry.get(Parameters::fromProfile(profile));
+      EXPECT_LE(entry.usual_low, value) << entry.name;
+      EXPECT_GE(entry.usual_high, value) << entry.name;
+    }
+  }
+}
+
+TEST(ParameterTableTest, ValuesOutsideComeToTheNearerEnd)
+{
+  const ParameterEntry* tau = findParameter("tau");
+  ASSERT_NE(tau, nullptr);
+  Parameters p;
+  tau->set(p, 1e9);
+  EXPECT_EQ(p.tau, tau->high);
+  tau->set(p, NOT_A_NUMBER);
+  EXPECT_EQ(p.tau, tau->low);
+  EXPECT_EQ(findParameter("no_such_name"), nullptr);
+}
+
+TEST(ParameterTableTest, ChoicesPrintTheirNames)
+{
+  Parameters p;
+  p.smoothness = Smoothness::PREDICTED_DEPTH;
+  p.fit = PlaneFit::GEOMETRIC;
+  p.depth_measure = DepthMeasure::OPTICAL_AXIS;
+  p.adaptive.join_coplanar = false;
+  EXPECT_EQ(findParameter("smoothness")->print(p), "predicted-depth");
+  EXPECT_EQ(findParameter("fit")->print(p), "geometric");
+  EXPECT_EQ(findParameter("depth_measure")->print(p), "z");
+  EXPECT_EQ(findParameter("join_coplanar")->print(p), "false");
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <pcl_mrf_planes/plane_segmentation.h>
 #include <pcl_mrf_planes/plane_uncertainty.h>
 #include <pcl_mrf_planes/region_polygons.h>
+#include <pcl_mrf_planes/segmentation_stages.h>
 #include <pcl_mrf_planes/sensor_pose.h>
 
 #include <pcl/ModelCoefficients.h>
@@ -305,6 +306,12 @@ public:
 
   /** \brief Confidence of the label of every point, 0 to 1, 0 for invalid points. */
   void computeConfidence(std::vector<float>& confidence) const;
+
+  /** \brief How the result came about: tiles, merged planes, the labels after every stage
+   * with the energy of each iteration; see pcl_mrf_planes::recordStages(). Segments the
+   * cloud anew, as often as there are iterations.
+   * \param[out] stages planes are in the frame of the sensor; patches are not separated */
+  void computeStages(pcl_mrf_planes::SegmentationStages& stages) const;
 
   /** \brief The cloud with the points of planes moved onto them; the others, and all other
    * fields, stay as they are. O(points) */

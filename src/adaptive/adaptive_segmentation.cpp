@@ -9,6 +9,7 @@
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_refinement.h"
 #include "adaptive/sampled_points.h"
+#include "adaptive/stage_observer.h"
 #include "adaptive/tile_pyramid.h"
 #include "region_gathering.h"
 #include "stage_timer.h"
@@ -67,7 +68,8 @@ struct Labelling {
 };
 
 Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_parameters,
-                      SegmentationReport& report, StageTimer& timer)
+                      SegmentationReport& report, StageTimer& timer,
+                      StageObserver* observer)
 {
   AdaptiveParameters parameters = all_parameters.adaptive;
 
@@ -83,6 +85,8 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   TileRegions regions = selectTiles(pyramid, noise, parameters);
   report.tiles_tried = countTiles(pyramid);
   report.tiles_kept = regions.planes.size();
+  if (observer != nullptr)
+    observer->seeTiles(regions, pyramid[0]);
   timer.finish("tiles");
 
   // B. Merging planes, on pooled sums
@@ -90,23 +94,34 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   if (regions.planes.size() > MOST_PLANES)
     throw std::runtime_error("more than 65000 planes; raise min_points, or segment the "
                              "cloud in parts");
+  if (observer != nullptr)
+    observer->seeRegions(Stage::MERGED, regions, pyramid[0]);
   if (parameters.join_coplanar)
     regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
+  if (observer != nullptr && parameters.join_coplanar)
+    observer->seeRegions(Stage::JOINED, regions, pyramid[0]);
   report.planes_after_merging = regions.planes.size();
   timer.finish("merging");
 
   // C and D. The random field and its MAP labels, of the cells until their planes are good
   // and then of the points; and the planes fitted to them
-  for (int round = 1; round < parameters.rounds; ++round)
+  for (int round = 1; round < parameters.rounds; ++round) {
     regions = labelCells(regions, pyramid[0], noise, parameters);
+    if (observer != nullptr)
+      observer->seeRegions(Stage::CELLS, regions, pyramid[0]);
+  }
   timer.finish("cells");
   const CandidateField field = buildField(points, regions, pyramid, noise, parameters);
+  if (observer != nullptr)
+    observer->seeField(field, points, parameters);
   timer.finish("field");
   LabelledPoints image(propagateBeliefs(field, points, parameters.passes),
                        points.width);
   report.iterations += parameters.passes;
   timer.finish("propagation");
   FittedRegions fitted = refineRegions(points, pyramid[0], noise, parameters, image);
+  if (observer != nullptr)
+    observer->seeImage(Stage::REFINED, fitted, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image);
   timer.finish("refinement");
   return {noise, std::move(fitted), std::move(image),
@@ -116,12 +131,13 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
 
 /// The same of every so many-th point, and the labels of the others from theirs.
 Labelling labelSampled(const OrganizedPoints& points, const Parameters& parameters,
-                       SegmentationReport& report, StageTimer& timer)
+                       SegmentationReport& report, StageTimer& timer,
+                       StageObserver* observer)
 {
   const int every = parameters.adaptive.sampling;
   const OrganizedPoints samples = samplePoints(points, every);
   timer.finish("sampling");
-  Labelling found = labelPlanes(samples, parameters, report, timer);
+  Labelling found = labelPlanes(samples, parameters, report, timer, observer);
   found.block_noise.reset(); // of blocks of samples
   found.image = LabelledPoints(spreadLabels(points, samples, found.image.labels, every,
                                             found.fitted.planes, found.noise,
@@ -136,12 +152,19 @@ Labelling labelSampled(const OrganizedPoints& points, const Parameters& paramete
 PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
                                     const Parameters& parameters)
 {
+  return adaptive::segmentObserved(points, parameters, nullptr);
+}
+
+PlaneSegmentation adaptive::segmentObserved(const OrganizedPoints& points,
+                                            const Parameters& parameters,
+                                            StageObserver* observer)
+{
   PlaneSegmentation result;
   SegmentationReport& report = result.report;
   StageTimer timer(report.stage_ms);
   Labelling found = parameters.adaptive.sampling > 1
-                        ? labelSampled(points, parameters, report, timer)
-                        : labelPlanes(points, parameters, report, timer);
+                        ? labelSampled(points, parameters, report, timer, observer)
+                        : labelPlanes(points, parameters, report, timer, observer);
   const std::vector<Plane> planes(found.fitted.planes.begin(),
                                   found.fitted.planes.end());
   const LabelRuns runs = planeRuns(found.image.runs);

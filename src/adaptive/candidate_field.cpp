@@ -82,6 +82,11 @@ private:
 
 } // namespace
 
+double unitsPerSigma(const AdaptiveParameters& parameters)
+{
+  return costUnits(parameters).per_sigma;
+}
+
 CandidateField buildField(const OrganizedPoints& points, const TileRegions& regions,
                           const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters)

@@ -82,6 +82,9 @@ struct CandidateField {
   }
 };
 
+/// Whole units of the field's costs in one sigma.
+double unitsPerSigma(const AdaptiveParameters& parameters);
+
 CandidateField buildField(const OrganizedPoints& points, const TileRegions& regions,
                           const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters);

@@ -15,10 +15,13 @@ using Json = nlohmann::json;
 using Values = std::vector<std::pair<std::string, Json>>;
 
 const std::vector<std::string> OTHER_OPTIONS = {
-    "models",  "label-image", "overlay", "masks",        "ply",    "format",
-    "config",  "profile",     "repeat",  "timing",       "quiet",  "help",
-    "version", "camera",      "size",    "filled-depth", "wrap",   "output-folder",
-    "write",   "inputs-from", "jobs",    "shard",        "resume", "list"};
+    "models",     "label-image",     "overlay", "masks",
+    "ply",        "format",          "config",  "profile",
+    "repeat",     "timing",          "quiet",   "help",
+    "version",    "camera",          "size",    "filled-depth",
+    "wrap",       "output-folder",   "write",   "inputs-from",
+    "jobs",       "shard",           "resume",  "list",
+    "parameters", "save-parameters", "stages",  "figure"};
 
 const Values COMMON = {{"depth", "range"},
                        {"noise", "0.002,0.0005,0.001"},

@@ -219,6 +219,15 @@ void MRFPlaneSegmentation<PointT>::projectPoints(const pcl_mrf_planes::Plane& pl
 }
 
 template <typename PointT>
+void MRFPlaneSegmentation<PointT>::computeStages(
+    pcl_mrf_planes::SegmentationStages& stages) const
+{
+  stages = {};
+  analyse("computeStages",
+          [&] { stages = pcl_mrf_planes::recordStages(points_, parameters_); });
+}
+
+template <typename PointT>
 void MRFPlaneSegmentation<PointT>::projectOntoPlanes(PointCloud& output,
                                                      ProjectionWay way) const
 {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "layers.h"
+
+#include <vtkImageActor.h>
+#include <vtkImageData.h>
+#include <vtkImageMapper3D.h>
+#include <vtkNew.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+
+namespace pcl_mrf_planes::viewer {
+
+vtkSmartPointer<vtkProp> imageLayer(const io::ColourImage& image)
+{
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(image.width, image.height, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* out = static_cast<unsigned char*>(data->GetScalarPointer());
+  for (int y = image.height - 1; y >= 0; --y) // VTK's rows go up
+    for (int x = 0; x < image.width; ++x) {
+      const io::Colour& c = image.pixels[static_cast<std::size_t>(y * image.width + x)];
+      out = std::copy(c.begin(), c.end(), out);
+    }
+  auto actor = vtkSmartPointer<vtkImageActor>::New();
+  actor->GetMapper()->SetInputData(data);
+  return actor;
+}
+
+vtkSmartPointer<vtkProp> textLayer(const std::string& text, double x, double y,
+                                   bool from_top, bool dark, int font_size)
+{
+  auto actor = vtkSmartPointer<vtkTextActor>::New();
+  std::string lines = text;
+  while (!lines.empty() && lines.back() == '\n')
+    lines.pop_back();
+  actor->SetInput(lines.c_str());
+  actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  actor->SetPosition(x, y);
+  vtkTextProperty* property = actor->GetTextProperty();
+  const double shade = dark ? 1.0 : 0.0;
+  property->SetFontFamilyToCourier();
+  property->SetFontSize(font_size);
+  property->SetColor(shade, shade, shade);
+  property->SetBackgroundColor(1.0 - shade, 1.0 - shade, 1.0 - shade);
+  property->SetBackgroundOpacity(0.7);
+  if (from_top)
+    property->SetVerticalJustificationToTop();
+  else
+    property->SetVerticalJustificationToBottom();
+  return actor;
+}
+
+} // namespace pcl_mrf_planes::viewer

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "label_contours.h"
+#include "point_colours.h"
+#include "tile_cells.h"
+
+#include <vtkProp.h>
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_mrf_planes::viewer {
+
+using Props = std::vector<vtkSmartPointer<vtkProp>>;
+
+/** \brief The points that are shown, in their colours. */
+vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame,
+                                    const PointColours& colours);
+
+/** \brief Contours as lines in one colour that stands out from the background. */
+vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
+                                      const std::vector<LabelContour>& contours,
+                                      bool dark);
+
+/** \brief An arrow along the normal of every plane, and its number. */
+Props normalLayer(const SegmentedView& view, bool dark);
+
+/** \brief Every tile as a square on its points: filled in the colour of the plane that it
+ * merged into; tiles that were not kept as gray outlines. */
+Props tileLayer(const ViewFrame& frame, const TileCells& cells);
+
+/** \brief A picture as a flat image, a unit a pixel, from the bottom left. */
+vtkSmartPointer<vtkProp> imageLayer(const io::ColourImage& image);
+
+/** \brief Energy after 0, 1, ... iterations up to \a shown, as a curve; the axes hold all
+ * of it. */
+vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int shown,
+                                     bool dark);
+
+/** \brief Lines of text on a plate; (x, y) in shares of the window.
+ * \param[in] from_top y is the upper edge, else the lower */
+vtkSmartPointer<vtkProp> textLayer(const std::string& text, double x, double y,
+                                   bool from_top, bool dark, int font_size = 15);
+
+} // namespace pcl_mrf_planes::viewer

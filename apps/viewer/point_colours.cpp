@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "point_colours.h"
+
+#include "label_colours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace pcl_mrf_planes::viewer {
+
+namespace {
+
+constexpr double NOTHING = std::numeric_limits<double>::quiet_NaN();
+constexpr io::Colour NO_VALUE = {110, 110, 110};
+constexpr double DIMMED = 0.35; // share of colour left to planes that are not selected
+
+struct Range {
+  double low = 0.0;
+  double high = 1.0;
+};
+
+/// All but the outermost twentieths: a few stray values must not use up the ramp.
+Range rangeOf(std::vector<double> values)
+{
+  values.erase(std::remove_if(values.begin(), values.end(),
+                              [](double v) { return !std::isfinite(v); }),
+               values.end());
+  if (values.empty())
+    return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share *
+                                           static_cast<double>(values.size() - 1))];
+  };
+  return {at(0.02), std::max(at(0.98), at(0.02) + 1e-9)};
+}
+
+std::string number(const char* format, double value)
+{
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, value);
+  return buffer.data();
+}
+
+double tileError(const TileCells& cells, std::size_t i)
+{
+  const int tile = cells.tile_of_point[i];
+  if (tile < 0 || !cells.tiles[static_cast<std::size_t>(tile)].kept)
+    return NOTHING;
+  return cells.tiles[static_cast<std::size_t>(tile)].rms;
+}
+
+std::vector<double> valuesOf(const ViewFrame& frame, const SegmentedView& view,
+                             const TileCells& tiles, ColourMode mode)
+{
+  std::vector<double> values(frame.points.size(), NOTHING);
+  std::vector<float> confidence;
+  if (mode == ColourMode::CONFIDENCE && view.confidence)
+    confidence = view.confidence();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (frame.points.valid[i] == 0)
+      continue;
+    if (mode == ColourMode::DEPTH)
+      values[i] = static_cast<double>(frame.points.depth(i));
+    else if (mode == ColourMode::DISTANCE)
+      values[i] = 1000.0 * std::abs(distanceToPlane(frame, view, i));
+    else if (mode == ColourMode::TILE_ERROR && i < tiles.tile_of_point.size())
+      values[i] = 1000.0 * tileError(tiles, i);
+    else if (mode == ColourMode::CONFIDENCE && i < confidence.size() &&
+             view.labels[i] != 0)
+      values[i] = static_cast<double>(confidence[i]);
+  }
+  return values;
+}
+
+std::string legendOf(ColourMode mode, const Range& range)
+{
+  if (mode == ColourMode::CONFIDENCE)
+    return "colour: confidence, 0 dark to 1 bright, grey none";
+  const bool metres = mode == ColourMode::DEPTH;
+  const char* format = metres ? "%.2f" : "%.1f";
+  const char* unit = metres ? " m" : " mm";
+  const char* what = metres                         ? "depth"
+                     : mode == ColourMode::DISTANCE ? "distance to the plane"
+                                                    : "rms distance of the tile";
+  return std::string("colour: ") + what + ", " + number(format, range.low) +
+         " dark to " + number(format, range.high) + unit + " bright, grey none";
+}
+
+void colourByValue(const ViewFrame& frame, const SegmentedView& view,
+                   const TileCells& tiles, ColourMode mode, PointColours& result)
+{
+  const std::vector<double> values = valuesOf(frame, view, tiles, mode);
+  const Range range = mode == ColourMode::CONFIDENCE ? Range{} : rangeOf(values);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    result.colours[i] =
+        std::isfinite(values[i])
+            ? rampColour((values[i] - range.low) / (range.high - range.low))
+            : NO_VALUE;
+  result.legend = legendOf(mode, range);
+}
+
+void colourByPlane(const SegmentedView& view, const std::vector<std::uint32_t>& classes,
+                   PointColours& result)
+{
+  std::vector<io::Colour> palette = {apps::labelColour(0)};
+  for (std::size_t k = 0; k < view.planes.size(); ++k)
+    palette.push_back(apps::labelColour(
+        k < classes.size() ? classes[k] : static_cast<std::uint32_t>(k + 1)));
+  for (std::size_t i = 0; i < view.labels.size(); ++i)
+    result.colours[i] = palette[view.labels[i]];
+  result.legend = "colour: plane, grey none";
+}
+
+void applySelection(const ViewFrame& frame, const SegmentedView& view,
+                    const ViewSettings& settings, PointColours& result)
+{
+  for (std::size_t i = 0; i < view.labels.size(); ++i) {
+    const std::uint16_t label = view.labels[i];
+    const bool is_selected = settings.selected != 0 && label == settings.selected;
+    result.shown[i] = frame.points.valid[i] != 0 && settings.hidden.count(label) == 0 &&
+                      (!settings.isolate || is_selected);
+    if (settings.selected != 0 && !is_selected)
+      for (std::uint8_t& channel : result.colours[i])
+        channel = static_cast<std::uint8_t>(DIMMED * channel);
+  }
+}
+
+} // namespace
+
+io::Colour rampColour(double share)
+{
+  static constexpr std::array<io::Colour, 6> STOPS = {{{68, 1, 84},
+                                                       {65, 68, 135},
+                                                       {42, 120, 142},
+                                                       {34, 168, 132},
+                                                       {122, 209, 81},
+                                                       {253, 231, 37}}};
+  const double place = 5.0 * std::min(1.0, std::max(0.0, share));
+  const auto below = std::min<std::size_t>(4, static_cast<std::size_t>(place));
+  const double part = place - static_cast<double>(below);
+  io::Colour colour{};
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<std::uint8_t>(
+        std::lround((1.0 - part) * STOPS[below][c] + part * STOPS[below + 1][c]));
+  return colour;
+}
+
+PointColours colourPoints(const ViewFrame& frame, const SegmentedView& view,
+                          const TileCells& tiles, const ViewSettings& settings,
+                          const std::vector<std::uint32_t>& classes)
+{
+  PointColours result;
+  result.colours.assign(frame.points.size(), NO_VALUE);
+  result.shown.assign(frame.points.size(), false);
+  const bool has_own = !frame.colours.empty();
+  if (settings.mode == ColourMode::PLANE)
+    colourByPlane(view, classes, result);
+  else if (settings.mode == ColourMode::OWN && has_own) {
+    result.colours = frame.colours;
+    result.legend = "colour: the cloud's own";
+  }
+  else if (settings.mode == ColourMode::OWN)
+    result.legend = "colour: this cloud has none of its own";
+  else
+    colourByValue(frame, view, tiles, settings.mode, result);
+  applySelection(frame, view, settings, result);
+  return result;
+}
+
+} // namespace pcl_mrf_planes::viewer

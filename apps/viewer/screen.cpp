@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "screen.h"
+
+#include "output_file.h"
+
+#include <pcl/visualization/pcl_visualizer.h>
+
+#include <vtkCamera.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkRendererCollection.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace pcl_mrf_planes::viewer {
+
+namespace {
+
+constexpr double DEGREES = 180.0 / 3.14159265358979323846;
+constexpr double MARGIN = 1.08; // around what the sensor saw
+
+} // namespace
+
+Screen::Screen(int width, int height, bool off_screen)
+: visualizer_(new pcl::visualization::PCLVisualizer("pcl_mrf_plane_viewer", false))
+{
+  window()->SetOffScreenRendering(off_screen ? 1 : 0);
+  window()->SetSize(width, height);
+  window()->SetMultiSamples(0);
+  // PCL's own renderer would draw over the whole window.
+  window()->GetRenderers()->RemoveAllItems();
+  window()->SetNumberOfLayers(3);
+  for (int part = 0; part < PARTS; ++part) {
+    auto renderer = vtkSmartPointer<vtkRenderer>::New();
+    renderer->SetLayer(part == OVERLAY ? 2 : part >= IMAGE ? 1 : 0);
+    renderer->SetInteractive(part <= RIGHT ? 1 : 0);
+    if (part == IMAGE || part == CHART) // plates of their own
+      renderer->PreserveColorBufferOff();
+    renderers_[static_cast<std::size_t>(part)] = renderer;
+  }
+  include(LEFT, true);
+  include(OVERLAY, true);
+  renderers_[RIGHT]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
+  renderers_[IMAGE]->SetViewport(0.66, 0.03, 0.985, 0.37);
+  renderers_[CHART]->SetViewport(0.60, 0.55, 0.985, 0.97);
+  arrange(false, true);
+}
+
+Screen::~Screen() = default;
+
+vtkRenderWindow* Screen::window()
+{
+  return visualizer_->getRenderWindow();
+}
+
+void Screen::include(Part part, bool wanted)
+{
+  // A renderer that is in the window clears its part of it, even if it draws nothing.
+  vtkRenderer* renderer = renderers_[part];
+  const bool is_in = window()->HasRenderer(renderer) != 0;
+  if (wanted && !is_in)
+    window()->AddRenderer(renderer);
+  else if (!wanted && is_in)
+    window()->RemoveRenderer(renderer);
+}
+
+void Screen::show(Part part, const Props& props)
+{
+  vtkRenderer* renderer = renderers_[part];
+  for (const auto& prop : shown_[part]) // the sliders' stay
+    renderer->RemoveViewProp(prop);
+  shown_[part] = props;
+  for (const auto& prop : props)
+    renderer->AddViewProp(prop);
+  if (part == IMAGE || part == CHART)
+    include(part, !props.empty());
+  if (part == IMAGE && !props.empty()) {
+    renderer->GetActiveCamera()->ParallelProjectionOn();
+    renderer->ResetCamera();
+    const double* bounds = props.front()->GetBounds();
+    const int* size = renderer->GetSize();
+    const double aspect = 1.0 * size[0] / std::max(1, size[1]);
+    renderer->GetActiveCamera()->SetParallelScale(
+        0.51 * std::max(bounds[3] - bounds[2], (bounds[1] - bounds[0]) / aspect));
+  }
+}
+
+void Screen::arrange(bool side_by_side, bool dark)
+{
+  side_by_side_ = side_by_side;
+  renderers_[LEFT]->SetViewport(0.0, 0.0, side_by_side ? 0.5 : 1.0, 1.0);
+  renderers_[RIGHT]->SetViewport(0.5, 0.0, 1.0, 1.0);
+  include(RIGHT, side_by_side);
+  const double shade = dark ? 0.08 : 1.0;
+  renderers_[LEFT]->SetBackground(shade, shade, shade);
+  renderers_[RIGHT]->SetBackground(shade, shade, shade);
+  const double plate = dark ? 0.0 : 0.93;
+  renderers_[IMAGE]->SetBackground(plate, plate, plate);
+  renderers_[CHART]->SetBackground(plate, plate, plate);
+}
+
+void Screen::look(const SensorView& view)
+{
+  vtkCamera* camera = renderers_[LEFT]->GetActiveCamera();
+  camera->SetPosition(view.position.data());
+  camera->SetFocalPoint(view.focus.data());
+  camera->SetViewUp(view.up.data());
+  const int* size = window()->GetSize();
+  const double aspect =
+      (side_by_side_ ? 0.5 : 1.0) * size[0] / std::max(1.0, 1.0 * size[1]);
+  const double tangent = MARGIN * std::max(view.along, view.across / aspect);
+  camera->SetViewAngle(2.0 * DEGREES * std::atan(tangent));
+  renderers_[LEFT]->ResetCameraClippingRange();
+}
+
+void writeWindow(vtkRenderWindow* window, const std::string& path)
+{
+  vtkNew<vtkWindowToImageFilter> grab;
+  grab->SetInput(window);
+  grab->ReadFrontBufferOff();
+  grab->ShouldRerenderOff();
+  grab->SetInputBufferTypeToRGB();
+  apps::writeAtomically(path, [&](const std::string& temporary) {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputConnection(grab->GetOutputPort());
+    writer->SetFileName(temporary.c_str());
+    writer->Write();
+    if (writer->GetErrorCode() != 0)
+      throw std::runtime_error("cannot write '" + path +
+                               "' as PNG; check the folder and the space on the disk");
+  });
+}
+
+} // namespace pcl_mrf_planes::viewer

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segmented_view.h"
+
+#include <pcl_mrf_planes/mrf_plane_segmentation.h>
+
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+namespace pcl_mrf_planes::viewer {
+
+namespace {
+
+using Segmentation = pcl::MRFPlaneSegmentation<pcl::PointXYZ>;
+
+std::vector<ViewPlane> planesOf(const Segmentation& segmentation,
+                                const std::vector<pcl::ModelCoefficients>& models,
+                                const Segmentation::Centroids& centroids)
+{
+  std::vector<ViewPlane> planes;
+  const auto& regions = segmentation.getResult().regions;
+  for (std::size_t k = 0; k < models.size(); ++k) {
+    const Eigen::Vector4d c = Eigen::Vector4f(models[k].values.data()).cast<double>();
+    planes.push_back({c.head<3>(), c[3], centroids[k].head<3>().cast<double>(),
+                      regions[k].indices.size(), regions[k].area, regions[k].rms});
+  }
+  return planes;
+}
+
+} // namespace
+
+double SegmentedView::totalMs() const
+{
+  double sum = 0.0;
+  for (const auto& stage : stage_ms)
+    sum += stage.second;
+  return sum;
+}
+
+SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
+                          const std::string& method)
+{
+  const auto segmentation = std::make_shared<Segmentation>();
+  segmentation->setParameters(parameters);
+  segmentation->setInputCloud(frame.cloud);
+  std::vector<pcl::ModelCoefficients> models;
+  std::vector<pcl::PointIndices> inliers, label_indices;
+  Segmentation::Centroids centroids;
+  Segmentation::Covariances covariances;
+  pcl::PointCloud<pcl::Label> labels;
+  segmentation->segment(models, inliers, centroids, covariances, labels, label_indices);
+  if (labels.size() != frame.cloud->size())
+    throw std::runtime_error("'" + frame.name +
+                             "' cannot be segmented with these parameters");
+  SegmentedView view;
+  view.method = method;
+  view.labels = segmentation->getResult().labels;
+  view.planes = planesOf(*segmentation, models, centroids);
+  view.stage_ms = segmentation->getReport().stage_ms;
+  view.confidence = [segmentation] {
+    std::vector<float> confidence;
+    segmentation->computeConfidence(confidence);
+    return confidence;
+  };
+  return view;
+}
+
+double distanceToPlane(const ViewFrame& frame, const SegmentedView& view,
+                       std::size_t index)
+{
+  const std::uint16_t label = view.labels[index];
+  if (label == 0 || label > view.planes.size())
+    return std::numeric_limits<double>::quiet_NaN();
+  const ViewPlane& plane = view.planes[label - 1u];
+  const pcl::PointXYZ& p = (*frame.cloud)[index];
+  return plane.normal.dot(Eigen::Vector3d(p.x, p.y, p.z)) + plane.d;
+}
+
+} // namespace pcl_mrf_planes::viewer

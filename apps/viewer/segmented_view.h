@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "view_frame.h"
+
+#include <pcl_mrf_planes/parameters.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl_mrf_planes::viewer {
+
+/** \brief What the viewer says of a plane, in the frame of the cloud. */
+struct ViewPlane {
+  Eigen::Vector3d normal =
+      Eigen::Vector3d::UnitZ(); ///< unit length, towards the sensor
+  double d = 0.0;               ///< metres
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  std::size_t points = 0;
+  double area = 0.0; ///< square metres
+  double rms = 0.0;  ///< metres
+};
+
+/** \brief A segmented frame, by whatever method. */
+struct SegmentedView {
+  std::string method;                ///< for the title
+  std::vector<std::uint16_t> labels; ///< per point: 0 no plane, k planes[k - 1]
+  std::vector<ViewPlane> planes;     ///< largest area first
+  std::vector<std::pair<std::string, double>> stage_ms;
+  /// Confidence of every label, 0 to 1, worked out when it is asked for; may be empty.
+  std::function<std::vector<float>()> confidence;
+
+  double totalMs() const;
+};
+
+/** \brief Segment a frame.
+ * \param[in] method name for the title
+ * \throws std::runtime_error when there is not enough memory */
+SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
+                          const std::string& method);
+
+/** \brief Signed distance of point \a index to the plane of its label, metres; NaN where
+ * there is none. */
+double distanceToPlane(const ViewFrame& frame, const SegmentedView& view,
+                       std::size_t index);
+
+} // namespace pcl_mrf_planes::viewer

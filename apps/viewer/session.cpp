@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session.h"
+
+#include "parameter_file.h"
+#include "parameter_options.h"
+#include "peer_segmentation.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace pcl_mrf_planes::viewer {
+
+namespace {
+
+constexpr double FASTEST = 60.0; // frames a second
+constexpr double SLOWEST = 0.25;
+
+template <typename Enum>
+Enum following(Enum value, Enum last)
+{
+  return value == last ? Enum{} : static_cast<Enum>(static_cast<int>(value) + 1);
+}
+
+std::string profileName(Profile profile)
+{
+  return profile == Profile::PAPER  ? "paper"
+         : profile == Profile::FAST ? "fast"
+                                    : "default";
+}
+
+std::string nameOf(Profile profile)
+{
+  return "profile " + profileName(profile);
+}
+
+Profile profileOf(Comparison comparison)
+{
+  return comparison == Comparison::PAPER  ? Profile::PAPER
+         : comparison == Comparison::FAST ? Profile::FAST
+                                          : Profile::DEFAULT;
+}
+
+/// The track takes any frame that stays: that of the cloud does.
+std::vector<Plane> sensorPlanes(const SegmentedView& view)
+{
+  std::vector<Plane> planes;
+  for (const ViewPlane& plane : view.planes)
+    planes.push_back({plane.normal, plane.d});
+  return planes;
+}
+
+} // namespace
+
+Session::Session(std::vector<io::FrameSource> frames, const Parameters& parameters,
+                 Profile profile)
+: frames_(std::move(frames))
+, frame_(readFrame(frames_.at(0)))
+, parameters_(parameters)
+, profile_(profile)
+{
+  segment();
+}
+
+void Session::perform(Action action)
+{
+  message_.clear();
+  if (performView(action) || performPlane(action) || performSequence(action))
+    return;
+  if (action == Action::PROFILE)
+    nextProfile();
+  else if (action == Action::SAVE_PARAMETERS)
+    saveParameters();
+  else if (action == Action::LOAD_PARAMETERS)
+    loadParameters();
+}
+
+bool Session::performView(Action action)
+{
+  const auto toggle = [](bool& value) {
+    value = !value;
+    return true;
+  };
+  if (action >= Action::BY_PLANE && action <= Action::BY_TILE_ERROR) {
+    settings.mode = static_cast<ColourMode>(static_cast<int>(action) -
+                                            static_cast<int>(Action::BY_PLANE));
+    settings.film = false;
+    updateStages();
+    return true;
+  }
+  switch (action) {
+  case Action::HELP:
+    return toggle(settings.help);
+  case Action::CONTOURS:
+    return toggle(settings.contours);
+  case Action::NORMALS:
+    return toggle(settings.normals);
+  case Action::SLIDERS:
+    return toggle(settings.sliders);
+  case Action::FACTS:
+    return toggle(settings.facts);
+  case Action::BACKGROUND:
+    return toggle(settings.dark);
+  case Action::TILES:
+    toggle(settings.tiles);
+    updateStages();
+    return true;
+  case Action::PANEL:
+    settings.panel = following(settings.panel, Panel::LABELS_ON_DEPTH);
+    return true;
+  case Action::COMPARE:
+    settings.comparison = following(settings.comparison, Comparison::PCL);
+    compare();
+    return true;
+  case Action::FILM:
+    toggle(settings.film);
+    settings.film_step = 0;
+    updateStages();
+    return true;
+  case Action::FILM_FORWARD:
+  case Action::FILM_BACK: {
+    const int last = static_cast<int>(film_.steps.size()) - 1;
+    const int by = action == Action::FILM_FORWARD ? 1 : -1;
+    settings.film_step = std::max(0, std::min(last, settings.film_step + by));
+    return true;
+  }
+  default:
+    return false;
+  }
+}
+
+bool Session::performPlane(Action action)
+{
+  const auto count = static_cast<std::uint16_t>(main_.planes.size());
+  switch (action) {
+  case Action::SELECT_NEXT:
+    settings.picked_point = -1;
+    settings.selected = settings.selected >= count
+                            ? std::uint16_t{0}
+                            : static_cast<std::uint16_t>(settings.selected + 1);
+    return true;
+  case Action::DESELECT:
+    pick(-1);
+    return true;
+  case Action::HIDE:
+    if (settings.selected == 0)
+      message_ = "no plane is selected; click on one or press tab";
+    else
+      settings.hidden.insert(settings.selected);
+    settings.selected = 0;
+    settings.picked_point = -1;
+    return true;
+  case Action::ISOLATE:
+    if (settings.selected == 0 && !settings.isolate)
+      message_ = "no plane is selected; click on one or press tab";
+    else
+      settings.isolate = !settings.isolate;
+    return true;
+  case Action::SHOW_ALL:
+    settings.hidden.clear();
+    settings.isolate = false;
+    return true;
+  default:
+    return false;
+  }
+}
+
+bool Session::performSequence(Action action)
+{
+  switch (action) {
+  case Action::PLAY:
+    playing_ = !playing_ && (frames_.size() > 1 || settings.film);
+    waited_ = 0.0;
+    if (!playing_ && frames_.size() == 1 && !settings.film)
+      message_ = "there is one frame only; open a folder to play";
+    return true;
+  case Action::NEXT_FRAME:
+    step(1);
+    return true;
+  case Action::PREVIOUS_FRAME:
+    step(-1);
+    return true;
+  case Action::FASTER:
+    speed_ = std::min(FASTEST, speed_ * 2.0);
+    return true;
+  case Action::SLOWER:
+    speed_ = std::max(SLOWEST, speed_ / 2.0);
+    return true;
+  case Action::LOOP:
+    loop_ = !loop_;
+    return true;
+  default:
+    return false;
+  }
+}
+
+bool Session::advance(double seconds)
+{
+  if (!playing_)
+    return false;
+  waited_ += seconds;
+  if (waited_ < 1.0 / speed_)
+    return false;
+  waited_ = 0.0; // frames that could not be shown in time are not caught up with
+  if (settings.film) {
+    const int count = static_cast<int>(film_.steps.size());
+    playing_ = loop_ || settings.film_step + 1 < count;
+    if (playing_ && count > 0)
+      settings.film_step = (settings.film_step + 1) % count;
+    return true;
+  }
+  if (!loop_ && index_ + 1 == frames_.size()) {
+    playing_ = false;
+    return true;
+  }
+  step(1);
+  return true;
+}
+
+void Session::step(int by)
+{
+  const auto count = static_cast<long>(frames_.size());
+  const long wanted = static_cast<long>(index_) + by;
+  if (!loop_ && (wanted < 0 || wanted >= count))
+    return;
+  const auto next = static_cast<std::size_t>((wanted + count) % count);
+  if (next != index_ && !showFrame(next))
+    index_ = next; // a broken frame is passed over, and does not stop the others
+}
+
+bool Session::showFrame(std::size_t index)
+{
+  try {
+    ViewFrame read = readFrame(frames_.at(index));
+    frame_ = std::move(read);
+    index_ = index;
+    forgetPlanes();
+    segment();
+    return true;
+  }
+  catch (const std::exception& error) {
+    message_ = error.what();
+    return false;
+  }
+}
+
+void Session::pick(long index)
+{
+  settings.picked_point = index;
+  settings.selected =
+      index < 0 ? std::uint16_t{0} : main_.labels[static_cast<std::size_t>(index)];
+  if (settings.selected == 0)
+    settings.isolate = false;
+}
+
+void Session::setParameters(const Parameters& parameters)
+{
+  const std::string complaint = parameters.validate();
+  if (!complaint.empty()) {
+    message_ = complaint;
+    return;
+  }
+  parameters_ = parameters;
+  forgetPlanes();
+  segment();
+}
+
+void Session::useSlider(std::size_t slider, double value)
+{
+  message_.clear();
+  Parameters changed = parameters_;
+  moveSlider(slidersOf(changed.method).at(slider), value, changed);
+  setParameters(changed);
+}
+
+const FilmStep* Session::filmStep() const
+{
+  const auto step = static_cast<std::size_t>(settings.film_step);
+  return settings.film && step < film_.steps.size() ? &film_.steps[step] : nullptr;
+}
+
+void Session::nextProfile()
+{
+  profile_ = following(profile_, Profile::PAPER);
+  setParameters(Parameters::fromProfile(profile_));
+  message_ = nameOf(profile_);
+}
+
+void Session::segment()
+{
+  main_ = segmentView(frame_, parameters_, nameOf(profile_));
+  main_colours_ = track_.update(sensorPlanes(main_), main_.labels);
+  compare();
+  updateStages();
+}
+
+void Session::compare()
+{
+  if (!compares())
+    return;
+  if (settings.comparison == Comparison::PCL)
+    other_ = segmentByPcl(frame_);
+  else {
+    const Profile profile = profileOf(settings.comparison);
+    other_ = segmentView(frame_, Parameters::fromProfile(profile), nameOf(profile));
+  }
+  // The same colours on both sides where the planes are the same.
+  apps::ColourTrack own = track_;
+  other_colours_ = own.update(sensorPlanes(other_), other_.labels);
+}
+
+void Session::updateStages()
+{
+  if (!settings.tiles && !settings.film && settings.mode != ColourMode::TILE_ERROR)
+    return;
+  const SegmentationStages stages = recordStages(frame_.points, parameters_);
+  tiles_ = tilesOf(stages);
+  apps::ColourTrack own = track_;
+  tiles_.classes = own.update(stages.merged_planes, tiles_.mergedLabels());
+  if (!settings.film)
+    return;
+  film_ = filmOf(stages, tiles_, track_);
+  const int last = static_cast<int>(film_.steps.size()) - 1;
+  settings.film_step = std::max(0, std::min(last, settings.film_step));
+}
+
+void Session::forgetPlanes()
+{
+  settings.selected = 0;
+  settings.picked_point = -1;
+  settings.isolate = false;
+  settings.hidden.clear();
+}
+
+std::string Session::parameterFile() const
+{
+  return parameter_file_.empty() ? "viewer_parameters.txt" : parameter_file_;
+}
+
+void Session::saveParameters()
+{
+  try {
+    apps::writeParameterFile(parameterFile(), {profileName(profile_), parameters_});
+    message_ = "parameters are in " + parameterFile();
+  }
+  catch (const std::exception& error) {
+    message_ = error.what();
+  }
+}
+
+void Session::loadParameters()
+{
+  try {
+    const apps::ParameterSet set = apps::readParameterFile(parameterFile());
+    profile_ = apps::profileFromName(set.profile);
+    setParameters(set.parameters);
+    if (message_.empty())
+      message_ = "parameters of " + parameterFile();
+  }
+  catch (const std::exception& error) {
+    message_ = error.what();
+  }
+}
+
+} // namespace pcl_mrf_planes::viewer

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <set>
+
+namespace pcl_mrf_planes::viewer {
+
+/** \brief What a point's colour stands for. */
+enum class ColourMode { PLANE, DEPTH, OWN, CONFIDENCE, DISTANCE, TILE_ERROR };
+
+/** \brief What stands on the right half of the window. */
+enum class Comparison { OFF, DEFAULT, FAST, PAPER, PCL };
+
+/** \brief What the 2-D panel shows. */
+enum class Panel { OFF, LABELS_ON_COLOUR, LABELS_ON_DEPTH };
+
+/** \brief How the result is shown. */
+struct ViewSettings {
+  ColourMode mode = ColourMode::PLANE;
+  Comparison comparison = Comparison::OFF;
+  Panel panel = Panel::OFF;
+  bool contours = false;
+  bool normals = false;
+  bool tiles = false;
+  bool sliders = false;
+  bool help = false;
+  bool facts = true;
+  bool dark = true;
+  bool film = false;
+  int film_step = 0;
+  std::uint16_t selected = 0; ///< label of the picked plane, 0 none
+  long picked_point = -1;     ///< index of the picked point, -1 none
+  bool isolate = false;       ///< only the selected plane is shown
+  std::set<std::uint16_t> hidden;
+};
+
+} // namespace pcl_mrf_planes::viewer

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viewer_window.h"
+
+#include "label_contours.h"
+#include "panel_image.h"
+#include "pick_point.h"
+#include "screen.h"
+#include "slider_panel.h"
+#include "view_text.h"
+#include "window_style.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkRenderWindowInteractor.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+
+namespace pcl_mrf_planes::viewer {
+
+namespace {
+
+constexpr unsigned long TICK = 20; // milliseconds
+constexpr double PICK_REACH = 4.0; // pixels
+using Clock = std::chrono::steady_clock;
+
+vtkSmartPointer<vtkRenderWindowInteractor> makeInteractor(vtkRenderWindow* window,
+                                                          bool off_screen)
+{
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor;
+  if (off_screen) // no events, but what sliders are attached to
+    interactor = vtkSmartPointer<vtkGenericRenderWindowInteractor>::New();
+  else
+    interactor = vtkSmartPointer<vtkRenderWindowInteractor>::New();
+  interactor->SetRenderWindow(window);
+  return interactor;
+}
+
+} // namespace
+
+struct ViewerWindow::Parts {
+  Session& session;
+  WindowOptions options;
+  Screen screen;
+  vtkSmartPointer<vtkRenderWindowInteractor> interactor;
+  vtkNew<WindowStyle> style;
+  std::unique_ptr<SliderPanel> sliders;
+  PointColours left;
+  Clock::time_point last = Clock::now();
+  int pictures = 0;
+
+  Parts(Session& s, const WindowOptions& o)
+  : session(s)
+  , options(o)
+  , screen(o.width, o.height, o.off_screen)
+  , interactor(makeInteractor(screen.window(), o.off_screen))
+  {}
+
+  Props view(const SegmentedView& result, const std::vector<std::uint32_t>& classes,
+             const ViewSettings& settings, PointColours& colours) const;
+  void drawLeft();
+  void drawRight();
+  void drawPanels();
+  Props texts() const;
+  void draw();
+  void act(Action action);
+  void click(int x, int y);
+  void tick();
+  void log() const;
+};
+
+Props ViewerWindow::Parts::view(const SegmentedView& result,
+                                const std::vector<std::uint32_t>& classes,
+                                const ViewSettings& settings,
+                                PointColours& colours) const
+{
+  const ViewFrame& frame = session.frame();
+  colours = colourPoints(frame, result, session.tiles(), settings, classes);
+  Props props = {cloudLayer(frame, colours)};
+  if (settings.contours)
+    props.push_back(contourLayer(frame, contoursOf(frame, result), settings.dark));
+  if (settings.normals)
+    for (const auto& prop : normalLayer(result, settings.dark))
+      props.push_back(prop);
+  return props;
+}
+
+void ViewerWindow::Parts::drawLeft()
+{
+  ViewSettings settings = session.settings;
+  if (const FilmStep* step = session.filmStep()) {
+    SegmentedView stage;
+    stage.labels = step->labels;
+    stage.planes.resize(step->classes.size());
+    settings.mode = ColourMode::PLANE;
+    settings.normals = settings.isolate = false;
+    settings.selected = 0;
+    settings.hidden.clear();
+    screen.show(Screen::LEFT, view(stage, step->classes, settings, left));
+    return;
+  }
+  Props props = view(session.main(), session.mainColours(), settings, left);
+  if (settings.tiles) {
+    // Dim points between the tiles, in the place of bright ones.
+    PointColours dim = left;
+    for (io::Colour& colour : dim.colours)
+      for (std::uint8_t& channel : colour)
+        channel = static_cast<std::uint8_t>(channel / 3);
+    props[0] = cloudLayer(session.frame(), dim);
+    for (const auto& prop : tileLayer(session.frame(), session.tiles()))
+      props.push_back(prop);
+  }
+  screen.show(Screen::LEFT, props);
+}
+
+void ViewerWindow::Parts::drawRight()
+{
+  if (!session.compares()) {
+    screen.show(Screen::RIGHT, {});
+    return;
+  }
+  ViewSettings settings = session.settings; // planes are picked on the left
+  settings.selected = 0;
+  settings.isolate = false;
+  settings.hidden.clear();
+  PointColours colours;
+  screen.show(Screen::RIGHT,
+              view(session.other(), session.otherColours(), settings, colours));
+}
+
+void ViewerWindow::Parts::drawPanels()
+{
+  const ViewSettings& settings = session.settings;
+  Props image, chart;
+  if (settings.panel != Panel::OFF)
+    image.push_back(imageLayer(panelImage(session.frame(), session.main(),
+                                          settings.panel, session.mainColours())));
+  if (session.filmStep() != nullptr && !session.film().energy.empty()) {
+    // The curve grows with the film; after the last iteration it stays whole.
+    int shown = -1;
+    for (int k = 0; k <= settings.film_step; ++k)
+      shown =
+          std::max(shown, session.film().steps[static_cast<std::size_t>(k)].iteration);
+    chart.push_back(energyLayer(session.film().energy, shown, settings.dark));
+  }
+  screen.show(Screen::IMAGE, image);
+  screen.show(Screen::CHART, chart);
+}
+
+Props ViewerWindow::Parts::texts() const
+{
+  const ViewSettings& settings = session.settings;
+  const bool dark = settings.dark;
+  if (settings.help)
+    return {textLayer(keyHelp(), 0.30, 0.98, true, dark, 14)};
+  Props props;
+  if (settings.facts) {
+    props.push_back(textLayer(factsText(session), 0.01, 0.985, true, dark));
+    if (session.compares())
+      props.push_back(textLayer(comparisonText(session), 0.51, 0.985, true, dark));
+  }
+  std::string below = selectionText(session);
+  if (settings.facts && session.filmStep() == nullptr)
+    below += left.legend + '\n';
+  below += session.message();
+  if (!below.empty())
+    props.push_back(textLayer(below, 0.01, 0.015, false, dark));
+  return props;
+}
+
+void ViewerWindow::Parts::draw()
+{
+  screen.arrange(session.compares(), session.settings.dark);
+  drawLeft();
+  drawRight();
+  drawPanels();
+  screen.show(Screen::OVERLAY, texts());
+  if (sliders)
+    sliders->show(session.settings.sliders && !session.settings.help,
+                  session.parameters(), session.settings.dark);
+  screen.renderer(Screen::LEFT)->ResetCameraClippingRange();
+  screen.window()->Render();
+}
+
+void ViewerWindow::Parts::act(Action action)
+{
+  session.perform(action);
+  if (action == Action::COMPARE || action == Action::RESET_CAMERA) {
+    screen.arrange(session.compares(), session.settings.dark);
+    screen.look(sensorView(session.frame()));
+  }
+  if (action == Action::SCREENSHOT) {
+    const std::string path =
+        options.pictures + '_' + std::to_string(++pictures) + ".png";
+    try {
+      writeWindow(screen.window(), path);
+      session.say("picture in " + path);
+    }
+    catch (const std::exception& error) {
+      session.say(error.what());
+    }
+  }
+  draw();
+  log();
+  if (action == Action::QUIT)
+    interactor->TerminateApp();
+}
+
+void ViewerWindow::Parts::click(int x, int y)
+{
+  vtkRenderer* renderer = screen.renderer(Screen::LEFT);
+  if (renderer->IsInViewport(x, y) == 0)
+    return;
+  const int* size = renderer->GetSize();
+  const int* origin = renderer->GetOrigin();
+  const double aspect = 1.0 * size[0] / std::max(1, size[1]);
+  vtkMatrix4x4* matrix =
+      renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(aspect, -1.0,
+                                                                         1.0);
+  const Eigen::Matrix4d projection =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix->GetData());
+  const Eigen::Vector2d extent(size[0], size[1]);
+  const Eigen::Vector2d place =
+      2.0 * (Eigen::Vector2d(x - origin[0], y - origin[1]).array() / extent.array()) -
+      1.0;
+  session.pick(pickPoint(*session.frame().cloud, left.shown, projection, place,
+                         2.0 * PICK_REACH * extent.cwiseInverse()));
+  draw();
+  log();
+}
+
+void ViewerWindow::Parts::tick()
+{
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - last).count();
+  last = now;
+  if (!session.advance(seconds))
+    return;
+  draw();
+  log();
+}
+
+void ViewerWindow::Parts::log() const
+{
+  if (options.log)
+    std::cout << stateLine(session) << std::endl;
+}
+
+ViewerWindow::ViewerWindow(Session& session, const WindowOptions& options)
+: parts_(new Parts(session, options))
+{
+  Parts& parts = *parts_;
+  parts.style->click = [&parts](int x, int y) { parts.click(x, y); };
+  parts.style->press = [&parts](const std::string& key) {
+    if (const auto action = actionOfKey(key))
+      parts.act(*action);
+  };
+  parts.interactor->SetInteractorStyle(parts.style);
+  parts.interactor->Initialize();
+  parts.sliders = std::make_unique<SliderPanel>(
+      parts.interactor, parts.screen.renderer(Screen::OVERLAY),
+      [&parts](std::size_t slider, double value) {
+        parts.session.useSlider(slider, value);
+        parts.draw();
+        parts.log();
+      });
+  parts.screen.look(sensorView(session.frame()));
+  draw();
+}
+
+ViewerWindow::~ViewerWindow() = default;
+
+bool ViewerWindow::press(const std::string& key)
+{
+  const auto action = actionOfKey(key);
+  if (action)
+    parts_->act(*action);
+  return action.has_value();
+}
+
+void ViewerWindow::draw()
+{
+  parts_->draw();
+}
+
+void ViewerWindow::writePicture(const std::string& path)
+{
+  writeWindow(parts_->screen.window(), path);
+}
+
+void ViewerWindow::run()
+{
+  Parts& parts = *parts_;
+  vtkNew<vtkCallbackCommand> timer;
+  timer->SetClientData(&parts);
+  timer->SetCallback([](vtkObject*, unsigned long, void* data, void*) {
+    static_cast<Parts*>(data)->tick();
+  });
+  parts.interactor->AddObserver(vtkCommand::TimerEvent, timer);
+  parts.interactor->CreateRepeatingTimer(TICK);
+  parts.last = Clock::now();
+  parts.log();
+  parts.interactor->Start();
+}
+
+} // namespace pcl_mrf_planes::viewer

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_mrf_planes/parameters.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pcl_mrf_planes {
+
+/** \brief Who takes a parameter. */
+enum class ParameterUse {
+  ALL,     ///< both methods
+  PAPER,   ///< Method::PAPER only
+  ADAPTIVE ///< Method::ADAPTIVE only
+};
+
+/** \brief What is to be known of one value of Parameters: name, range, unit, effect.
+ *
+ * The one place for it: Parameters::validate(), the options of the apps, parameter files and
+ * sliders all go by these. Every value is a number here; that of a choice is its place
+ * among the choices, that of a switch is 0 or 1.
+ */
+struct ParameterEntry {
+  using Member = std::variant<int Parameters::*, double Parameters::*,
+                              unsigned int Parameters::*, bool Parameters::*,
+                              PlaneFit Parameters::*, DepthMeasure Parameters::*,
+                              Smoothness Parameters::*, int AdaptiveParameters::*,
+                              double AdaptiveParameters::*, bool AdaptiveParameters::*>;
+
+  std::string name; ///< of the member
+  Member member;
+  double low, high;             ///< what validate() lets pass, both ends included
+  double usual_low, usual_high; ///< what is worth trying, as the ends of a slider
+  std::string unit; ///< in capitals, POINTS, METRES, SHARE (0 to 1), COUNT, ...
+  std::string help; ///< effect
+  ParameterUse use = ParameterUse::ALL;
+  std::vector<std::string> choices = {}; ///< their names; empty for numbers
+
+  bool isWhole() const; ///< numbers without a fraction, choices among them
+  bool isUsedBy(Method method) const;
+
+  /** \brief The value, as a number. */
+  double get(const Parameters& parameters) const;
+
+  /** \brief Set the value; a fraction of whole numbers is cut off. A value outside of the
+   * range is brought to its nearer end, NaN to the lower one. */
+  void set(Parameters& parameters, double value) const;
+
+  /** \brief The value as text: the shortest that reads back the same, or a choice. */
+  std::string print(const Parameters& parameters) const;
+};
+
+/** \brief All parameters but the noise model, which is three numbers, in the order of
+ * --help. */
+const std::vector<ParameterEntry>& parameterTable();
+
+/** \brief The entry of that name, or null. */
+const ParameterEntry* findParameter(const std::string& name);
+
+} // namespace pcl_mrf_planes
