@@ -18,11 +18,9 @@ function(pcl_mrf_planes_debian_papers component package)
   install(FILES "${made}/changelog.Debian.gz" "${made}/changelog.gz"
                 "${folder}/copyright"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package}" COMPONENT ${component})
-  if(EXISTS "${folder}/${component}.lintian-overrides.in")
-    configure_file("${folder}/${component}.lintian-overrides.in" "${made}/overrides" @ONLY)
-    install(FILES "${made}/overrides" RENAME "${package}"
-      DESTINATION "${CMAKE_INSTALL_DATADIR}/lintian/overrides" COMPONENT ${component})
-  endif()
+  configure_file("${folder}/lintian-overrides.in" "${made}/overrides" @ONLY)
+  install(FILES "${made}/overrides" RENAME "${package}"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/lintian/overrides" COMPONENT ${component})
 endfunction()
 
 if(PCL_MRF_PLANES_DEBIAN)
