@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 namespace pcl_mrf_planes {
 
 /** \brief Values of Method::ADAPTIVE; lengths in metres, sizes in points of the image.
@@ -9,7 +11,7 @@ namespace pcl_mrf_planes {
  * question: correlated noise makes a wall deviate more from its plane than a small tile
  * from its own.
  */
-struct AdaptiveParameters {
+struct PCL_MRF_PLANES_EXPORT AdaptiveParameters {
   /// Every so many-th point of every so many-th row is segmented, the others take labels
   /// from around them; 1 (all) to 8. min_points and min_evidence count sampled points.
   int sampling = 1;

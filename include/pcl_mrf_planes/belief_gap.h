@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_mrf_planes/belief_propagation.h>
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/grid_field.h>
 
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace pcl_mrf_planes {
  * O(sites * labels)
  * \param[in] field the field that \a propagation works on
  */
-std::vector<std::uint16_t> beliefGaps(const GridField& field,
-                                      const BeliefPropagation& propagation);
+PCL_MRF_PLANES_EXPORT std::vector<std::uint16_t>
+beliefGaps(const GridField& field, const BeliefPropagation& propagation);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/grid_field.h>
 
 #include <cstdint>
@@ -23,7 +24,7 @@ namespace pcl_mrf_planes {
  * predecessor of any label is skipped, which leaves a few per site. Memory: 8 L bytes a
  * site beside the field's 2 L.
  */
-class BeliefPropagation {
+class PCL_MRF_PLANES_EXPORT BeliefPropagation {
 public:
   /** \param[in] field must outlive this object
    * \param[in] threads 0: as many as the machine has cores */

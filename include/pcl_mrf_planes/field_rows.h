@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +17,7 @@ enum class EdgeModel {
 };
 
 /** \brief Prices of pairs of labels on neighbouring sites, in 16-bit units. */
-class PairPrices {
+class PCL_MRF_PLANES_EXPORT PairPrices {
 public:
   /** \brief Weight of an edge that does not exist: its price is 0 for every pair. */
   static constexpr std::uint16_t NO_EDGE = 65535;
@@ -90,7 +92,7 @@ private:
  *
  * Site (x, y) has colour (x + y) % 2 and is number x / 2 of its row and colour.
  */
-struct CheckerboardLayout {
+struct PCL_MRF_PLANES_EXPORT CheckerboardLayout {
   static constexpr int PADDING = 32; ///< elements before and behind a row of sites
 
   int width = 0;
@@ -127,7 +129,7 @@ struct CheckerboardLayout {
 };
 
 /** \brief Memory for the costs of one row of sites, the colours apart. */
-struct FieldRow {
+struct PCL_MRF_PLANES_EXPORT FieldRow {
   std::uint16_t* data[2];  ///< by colour; label l is l * stride elements further on
   std::uint16_t* right[2]; ///< weight of the edge to the right of each site
   std::uint16_t* down[2];  ///< weight of the edge below each site
@@ -135,7 +137,7 @@ struct FieldRow {
 
 /** \brief A random field on a grid that gives its costs row by row, so that they need
  * not all be in memory at once. */
-class FieldRows {
+class PCL_MRF_PLANES_EXPORT FieldRows {
 public:
   virtual ~FieldRows() = default;
 

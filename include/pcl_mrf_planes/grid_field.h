@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/field_rows.h>
 
 #include <cstddef>
@@ -34,7 +35,7 @@ namespace pcl_mrf_planes {
  * largest price must not exceed 65535, so that no sum of a site's data cost and its
  * four messages overflows.
  */
-class GridField : public FieldRows {
+class PCL_MRF_PLANES_EXPORT GridField : public FieldRows {
 public:
   /** \brief Weight of an edge that does not exist: it carries no message. */
   static constexpr std::uint16_t NO_EDGE = PairPrices::NO_EDGE;

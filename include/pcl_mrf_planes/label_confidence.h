@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/plane_segmentation.h>
@@ -29,8 +30,8 @@ namespace pcl_mrf_planes {
  * Method::PAPER O(points * labels * iterations).
  * \param[in] result of segmentPlanes() with the same points and parameters
  */
-std::vector<float> labelConfidence(const OrganizedPoints& points,
-                                   const PlaneSegmentation& result,
-                                   const Parameters& parameters);
+PCL_MRF_PLANES_EXPORT std::vector<float>
+labelConfidence(const OrganizedPoints& points, const PlaneSegmentation& result,
+                const Parameters& parameters);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/plane_creases.h>
 #include <pcl_mrf_planes/plane_projection.h>
@@ -62,7 +63,7 @@ namespace pcl {
  *         library; for your own define PCL_NO_PRECOMPILE before including this header.
  */
 template <typename PointT>
-class MRFPlaneSegmentation : public PCLBase<PointT> {
+class PCL_MRF_PLANES_EXPORT MRFPlaneSegmentation : public PCLBase<PointT> {
 public:
   using Ptr = shared_ptr<MRFPlaneSegmentation<PointT>>;
   using ConstPtr = shared_ptr<const MRFPlaneSegmentation<PointT>>;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,7 +15,7 @@ namespace pcl_mrf_planes {
  * Sensor noise grows with depth, so the threshold does too: a tile is kept while its
  * root mean square distance stays below a multiple of sigma at the tile's depth.
  */
-struct NoiseModel {
+struct PCL_MRF_PLANES_EXPORT NoiseModel {
   double a = 0.0; ///< constant part, metres
   double b = 0.0; ///< linear part, metres per metre
   double c = 0.0; ///< quadratic part, metres per square metre

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/parameters.h>
 
 #include <Eigen/Core>
@@ -20,7 +21,7 @@ namespace pcl_mrf_planes {
  * offset d of a plane turned towards the sensor is never negative. Invalid points have
  * coordinates 0 and valid 0: they add nothing to a sum and are no sites of the field.
  */
-struct OrganizedPoints {
+struct PCL_MRF_PLANES_EXPORT OrganizedPoints {
   int width = 0;
   int height = 0;
   std::vector<float> x, y, z; ///< metres

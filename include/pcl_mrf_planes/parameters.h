@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl_mrf_planes/adaptive_parameters.h>
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/noise_model.h>
 
 #include <string>
@@ -47,7 +48,7 @@ enum class Profile {
  * Units are metres and points. What stands here for Method::PAPER has the values of
  * Profile::PAPER (section V of the paper where it states one).
  */
-struct Parameters {
+struct PCL_MRF_PLANES_EXPORT Parameters {
   Method method = Method::ADAPTIVE;
 
   /** \brief Values of Method::ADAPTIVE, which takes of those below depth_measure,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <Eigen/Core>
 
 #include <cmath>
@@ -12,7 +14,7 @@ namespace pcl_mrf_planes {
  * In the sensor frame, turned towards the sensor at the origin: d >= 0. That makes the
  * four numbers of a plane unique, which the dissimilarity (5) needs.
  */
-struct Plane {
+struct PCL_MRF_PLANES_EXPORT Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< (a, b, c)
   double d = 0.0;                                    ///< metres
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/plane.h>
 #include <pcl_mrf_planes/tile_plane_detection.h>
 
@@ -9,14 +10,14 @@
 namespace pcl_mrf_planes {
 
 /** \brief A plane model as the merging sees it. */
-struct PlaneModel {
+struct PCL_MRF_PLANES_EXPORT PlaneModel {
   Plane plane;
   double error = 0.0;  ///< rms distance of the tile that the plane comes from, metres
   double points = 0.0; ///< valid points of all the tiles that refer to it
 };
 
 /** \brief The L label planes and which of them each plane refers to. */
-struct PlaneClusters {
+struct PCL_MRF_PLANES_EXPORT PlaneClusters {
   static constexpr int NONE = -1;
   /// Best supported first; ties by error, then by coefficients.
   std::vector<PlaneModel> planes;
@@ -40,14 +41,15 @@ struct PlaneClusters {
  * \param[in] beta weight of |d_i - d_j|, 1/m
  * \param[in] threshold v of equation (5)
  */
-PlaneClusters mergePlanes(const std::vector<PlaneModel>& models, double beta,
-                          double threshold);
+PCL_MRF_PLANES_EXPORT PlaneClusters mergePlanes(const std::vector<PlaneModel>& models,
+                                                double beta, double threshold);
 
 /** \brief mergePlanes() over the kept tiles of an image of planar fits.
  *
  * Keeps at most parameters.max_planes label planes, the best supported; the assignment
  * is the tile-to-plane map, a coarse segmentation of its own.
  */
-PlaneClusters clusterTilePlanes(const TileImage& image, const Parameters& parameters);
+PCL_MRF_PLANES_EXPORT PlaneClusters clusterTilePlanes(const TileImage& image,
+                                                      const Parameters& parameters);
 
 } // namespace pcl_mrf_planes

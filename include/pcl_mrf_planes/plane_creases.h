@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/plane.h>
 #include <pcl_mrf_planes/plane_regions.h>
@@ -15,7 +16,7 @@
 namespace pcl_mrf_planes {
 
 /** \brief The piece of a line along which two planes meet. */
-struct PlaneCrease {
+struct PCL_MRF_PLANES_EXPORT PlaneCrease {
   std::size_t first = 0;  ///< index of one region
   std::size_t second = 0; ///< of the other, larger than first
   Eigen::Vector3d start;  ///< end points, metres, sensor frame, on both planes
@@ -28,7 +29,7 @@ struct PlaneCrease {
 };
 
 /** \brief What counts as a crease. */
-struct CreaseParameters {
+struct PCL_MRF_PLANES_EXPORT CreaseParameters {
   double min_angle = 0.17; ///< between the normals, radians, 0 to pi / 2
   /// Of the border's points to the line, metres, > 0; three times the rms distance of the
   /// planes' points where that is more.
@@ -49,28 +50,31 @@ struct CreaseParameters {
  * share is the crease, from its first point to its last; where one thing stands in front
  * of another the border lies off the line. O(points + border log border)
  */
-std::vector<PlaneCrease> findCreases(const OrganizedPoints& points,
-                                     const std::vector<PlaneRegion>& regions,
-                                     const CreaseParameters& parameters = {});
+PCL_MRF_PLANES_EXPORT std::vector<PlaneCrease>
+findCreases(const OrganizedPoints& points, const std::vector<PlaneRegion>& regions,
+            const CreaseParameters& parameters = {});
 
 /** \brief The same crease in the frame of the cloud. */
-PlaneCrease inCloudFrame(const PlaneCrease& crease, const SensorPose& pose);
+PCL_MRF_PLANES_EXPORT PlaneCrease inCloudFrame(const PlaneCrease& crease,
+                                               const SensorPose& pose);
 
 /** \brief Angle between the normals of two planes, radians, 0 to pi; the supplement of the
  * one that a protractor shows inside a corner. */
-double normalAngle(const Plane& a, const Plane& b);
+PCL_MRF_PLANES_EXPORT double normalAngle(const Plane& a, const Plane& b);
 
 /** \brief How far apart two nearly parallel regions are: mean distance of the centroid of
  * each from the plane of the other, metres. Of planes that are not parallel it says
  * little. */
-double planeDistance(const PlaneRegion& a, const PlaneRegion& b);
+PCL_MRF_PLANES_EXPORT double planeDistance(const PlaneRegion& a, const PlaneRegion& b);
 
 /** \brief The line in which two planes meet.
  * \param[out] point the point of it nearest to \a near, metres
  * \param[out] direction of unit length
  * \return false for planes that are parallel to 1e-6
  */
-bool intersectPlanes(const Plane& a, const Plane& b, const Eigen::Vector3d& near,
-                     Eigen::Vector3d& point, Eigen::Vector3d& direction);
+PCL_MRF_PLANES_EXPORT bool intersectPlanes(const Plane& a, const Plane& b,
+                                           const Eigen::Vector3d& near,
+                                           Eigen::Vector3d& point,
+                                           Eigen::Vector3d& direction);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/grid_field.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/parameters.h>
@@ -16,7 +17,7 @@ namespace pcl_mrf_planes {
 
 /** \brief Energy of a segmentation, equation (6) summed over all sites; energy units.
  */
-struct FieldEnergy {
+struct PCL_MRF_PLANES_EXPORT FieldEnergy {
   double data = 0.0;       ///< sum of (7) over the valid points
   double smoothness = 0.0; ///< sum of V over the edges, each edge once
   double total() const { return data + smoothness; }
@@ -30,7 +31,7 @@ struct FieldEnergy {
  * each term is off by at most half a unit: two labellings whose energies differ by more
  * than (sites + edges) / unitsPerEnergy() are ordered alike in both.
  */
-class PlaneField : public FieldRows {
+class PCL_MRF_PLANES_EXPORT PlaneField : public FieldRows {
 public:
   /** \brief Prepare the prices. O(points + planes^2); the data terms are computed where
    * they are asked for.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/plane_regions.h>
 
@@ -22,13 +23,14 @@ enum class ProjectionWay {
  *
  * Along the ray a point that sees its plane at less than a degree would move far; it is
  * moved to the nearest point instead. */
-Eigen::Vector3d projectPoint(const Eigen::Vector3d& point, const Plane& plane,
-                             ProjectionWay way);
+PCL_MRF_PLANES_EXPORT Eigen::Vector3d
+projectPoint(const Eigen::Vector3d& point, const Plane& plane, ProjectionWay way);
 
 /** \brief Move the points of all regions onto their planes; the others stay. A cloud
  * without the noise of its planes. O(points) */
-void projectOntoPlanes(const std::vector<PlaneRegion>& regions, ProjectionWay way,
-                       OrganizedPoints& points);
+PCL_MRF_PLANES_EXPORT void projectOntoPlanes(const std::vector<PlaneRegion>& regions,
+                                             ProjectionWay way,
+                                             OrganizedPoints& points);
 
 /** \brief projectPoint() for the points of some indices, of a cloud whose coordinates are
  * floats in memory: x, y, z of a point follow each other. O(indices)
@@ -41,8 +43,8 @@ void projectPoints(const Plane& plane, const Eigen::Vector3d& origin, Projection
 /** \brief Indices of the points that belong to no region, ascending. O(points)
  * \param[in] labels per point: 0 no plane
  * \param[in] invalid whether points that were not measured are among them */
-std::vector<int> pointsOfNoPlane(const OrganizedPoints& points,
-                                 const std::vector<std::uint16_t>& labels,
-                                 bool invalid = false);
+PCL_MRF_PLANES_EXPORT std::vector<int>
+pointsOfNoPlane(const OrganizedPoints& points, const std::vector<std::uint16_t>& labels,
+                bool invalid = false);
 
 } // namespace pcl_mrf_planes

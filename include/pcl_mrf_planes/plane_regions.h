@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/plane.h>
 
@@ -15,7 +16,7 @@ namespace pcl_mrf_planes {
 constexpr std::uint16_t NO_PLANE = 65535;
 
 /** \brief The points that carry the label of one plane. */
-struct PlaneRegion {
+struct PCL_MRF_PLANES_EXPORT PlaneRegion {
   Plane plane;                ///< sensor frame
   int label = 0;              ///< index of the label plane
   std::vector<int> indices;   ///< points of the image, ascending
@@ -35,13 +36,13 @@ struct PlaneRegion {
  *
  * \param[in] labels index of a label plane for every valid point, or NO_PLANE
  */
-std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
-                                       const std::vector<Plane>& planes,
-                                       const std::vector<std::uint16_t>& labels,
-                                       int min_points, double min_area = 0.0);
+PCL_MRF_PLANES_EXPORT std::vector<PlaneRegion>
+gatherRegions(const OrganizedPoints& points, const std::vector<Plane>& planes,
+              const std::vector<std::uint16_t>& labels, int min_points,
+              double min_area = 0.0);
 
 /** \brief The label image of the regions: 0 no plane, k region k - 1. */
-std::vector<std::uint16_t> regionLabels(const OrganizedPoints& points,
-                                        const std::vector<PlaneRegion>& regions);
+PCL_MRF_PLANES_EXPORT std::vector<std::uint16_t>
+regionLabels(const OrganizedPoints& points, const std::vector<PlaneRegion>& regions);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/plane_clustering.h>
@@ -18,7 +19,7 @@
 namespace pcl_mrf_planes {
 
 /** \brief What a run did: counts, energies and times. */
-struct SegmentationReport {
+struct PCL_MRF_PLANES_EXPORT SegmentationReport {
   std::size_t points = 0;       ///< points of the image
   std::size_t valid_points = 0; ///< measured points inside the region of interest
   std::size_t tiles_tried = 0;
@@ -46,7 +47,7 @@ struct BlockNoise;
 } // namespace adaptive
 
 /** \brief Result of a run, in the sensor frame. */
-struct PlaneSegmentation {
+struct PCL_MRF_PLANES_EXPORT PlaneSegmentation {
   std::vector<PlaneRegion> regions;  ///< largest area first
   std::vector<std::uint16_t> labels; ///< per point: 0 no plane, k regions[k - 1]
   TileImage tiles;                   ///< the image of planar fits
@@ -60,15 +61,15 @@ struct PlaneSegmentation {
  * \param[in] points the cloud in the sensor frame
  * \param[in] parameters must pass Parameters::validate()
  */
-PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
-                                const Parameters& parameters);
+PCL_MRF_PLANES_EXPORT PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
+                                                      const Parameters& parameters);
 
 /** \brief Method::PAPER: section IV of the paper in one function.
  * \param[in] points the cloud in the sensor frame
  * \param[in] parameters must pass Parameters::validate()
  */
-PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
-                                   const Parameters& parameters);
+PCL_MRF_PLANES_EXPORT PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
+                                                         const Parameters& parameters);
 
 /** \brief Method::ADAPTIVE: tiles of several sizes kept by the noise that the cloud shows,
  * merging on pooled sums, a random field in which a plane competes only where it has
@@ -78,7 +79,7 @@ PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
  * \param[in] points the cloud in the sensor frame
  * \param[in] parameters must pass Parameters::validate()
  */
-PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
-                                    const Parameters& parameters);
+PCL_MRF_PLANES_EXPORT PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
+                                                          const Parameters& parameters);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/noise_model.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/parameters.h>
@@ -20,7 +21,7 @@ namespace pcl_mrf_planes {
  * centroid of its points, or the offset d by delta, which is the same to first order: large
  * turns about a far origin are best told from the centroid.
  */
-struct PlaneUncertainty {
+struct PCL_MRF_PLANES_EXPORT PlaneUncertainty {
   /// False where the points do not determine a plane: fewer than four, on a line, or
   /// spread less than twice their rms distance. The diagonals are infinite then.
   bool valid = false;
@@ -52,7 +53,7 @@ struct PlaneUncertainty {
 };
 
 /** \brief Where the noise of a point along its plane's normal is taken from. */
-struct UncertaintyNoise {
+struct PCL_MRF_PLANES_EXPORT UncertaintyNoise {
   bool stated = false; ///< true: from model; false: from the distances of the points
   NoiseModel model;    ///< sigma of the depth, along the ray
 
@@ -75,13 +76,13 @@ struct UncertaintyNoise {
  * whose planes are made of tiles, PlaneUncertainty::plane may differ from the region's.
  * O(points)
  */
-std::vector<PlaneUncertainty>
+PCL_MRF_PLANES_EXPORT std::vector<PlaneUncertainty>
 planeUncertainties(const OrganizedPoints& points,
                    const std::vector<PlaneRegion>& regions,
                    const UncertaintyNoise& noise = UncertaintyNoise());
 
 /** \brief The same uncertainty in the frame of the cloud. */
-PlaneUncertainty inCloudFrame(const PlaneUncertainty& uncertainty,
-                              const SensorPose& pose);
+PCL_MRF_PLANES_EXPORT PlaneUncertainty inCloudFrame(const PlaneUncertainty& uncertainty,
+                                                    const SensorPose& pose);
 
 } // namespace pcl_mrf_planes

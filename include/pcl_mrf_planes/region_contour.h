@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <cstdint>
 #include <vector>
 
 namespace pcl_mrf_planes {
 
 /** \brief 4-connected parts of the labels of an image. */
-struct ConnectedParts {
+struct PCL_MRF_PLANES_EXPORT ConnectedParts {
   static constexpr int NONE = -1;
   std::vector<int> part_of_point; ///< part of every point, NONE where the label is 0
   std::vector<int> size;          ///< points of each part
@@ -17,8 +19,8 @@ struct ConnectedParts {
 
 /** \brief Find the connected parts of a label image; label 0 is background.
  * O(width * height) */
-ConnectedParts findConnectedParts(const std::vector<std::uint16_t>& labels, int width,
-                                  int height);
+PCL_MRF_PLANES_EXPORT ConnectedParts
+findConnectedParts(const std::vector<std::uint16_t>& labels, int width, int height);
 
 /** \brief Outer boundary of a connected part: its points in the order in which one
  * walks around it, clockwise in the image, each step to an 8-neighbour; the first point
@@ -30,7 +32,7 @@ ConnectedParts findConnectedParts(const std::vector<std::uint16_t>& labels, int 
  * \param[in] parts result of findConnectedParts() \param[in] part which one
  * \return indices of points; one for a part of one point. O(length)
  */
-std::vector<int> traceContour(const ConnectedParts& parts, int part, int width,
-                              int height);
+PCL_MRF_PLANES_EXPORT std::vector<int> traceContour(const ConnectedParts& parts,
+                                                    int part, int width, int height);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/plane_regions.h>
 
@@ -15,8 +16,8 @@ namespace pcl_mrf_planes {
  * region. Parts with fewer than \a min_points points or less than \a min_area square
  * metres are dropped; of more than 65000 the largest by points stay. O(points)
  */
-std::vector<PlaneRegion> separateParts(const OrganizedPoints& points,
-                                       const std::vector<PlaneRegion>& regions,
-                                       int min_points = 1, double min_area = 0.0);
+PCL_MRF_PLANES_EXPORT std::vector<PlaneRegion>
+separateParts(const OrganizedPoints& points, const std::vector<PlaneRegion>& regions,
+              int min_points = 1, double min_area = 0.0);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/plane_regions.h>
 #include <pcl_mrf_planes/sensor_pose.h>
@@ -16,7 +17,7 @@ namespace pcl_mrf_planes {
 using PlaneRing = std::vector<Eigen::Vector3d>;
 
 /** \brief One connected patch of a plane as a polygon with holes. */
-struct PlanePolygon {
+struct PCL_MRF_PLANES_EXPORT PlanePolygon {
   PlaneRing outer;              ///< counterclockwise, seen from the sensor
   std::vector<PlaneRing> holes; ///< clockwise
   double area = 0.0;            ///< less the holes, square metres
@@ -24,13 +25,13 @@ struct PlanePolygon {
 };
 
 /** \brief The shape of a region. */
-struct RegionOutline {
+struct PCL_MRF_PLANES_EXPORT RegionOutline {
   std::vector<PlanePolygon> patches; ///< most points first
   PlaneRing hull; ///< convex hull of all of the patches, counterclockwise
 };
 
 /** \brief What outlines leave out; lengths in metres, areas in square metres. */
-struct OutlineParameters {
+struct PCL_MRF_PLANES_EXPORT OutlineParameters {
   double tolerance = 0.01; ///< a corner is left out if the line stays so near it, >= 0
   int min_points = 1;      ///< smaller patches have no polygon
   double min_area = 0.0;   ///< nor have those of less area
@@ -52,11 +53,12 @@ struct OutlineParameters {
  * Of a patch whose rays cross each other, as no sensor's do, the convex hull is given.
  * O(points + border log border)
  */
-std::vector<RegionOutline> outlineRegions(const OrganizedPoints& points,
-                                          const std::vector<PlaneRegion>& regions,
-                                          const OutlineParameters& parameters = {});
+PCL_MRF_PLANES_EXPORT std::vector<RegionOutline>
+outlineRegions(const OrganizedPoints& points, const std::vector<PlaneRegion>& regions,
+               const OutlineParameters& parameters = {});
 
 /** \brief The same outline in the frame of the cloud. */
-RegionOutline inCloudFrame(const RegionOutline& outline, const SensorPose& pose);
+PCL_MRF_PLANES_EXPORT RegionOutline inCloudFrame(const RegionOutline& outline,
+                                                 const SensorPose& pose);
 
 } // namespace pcl_mrf_planes

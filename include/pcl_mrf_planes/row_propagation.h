@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/field_rows.h>
 
 #include <cstdint>
@@ -28,8 +29,8 @@ namespace pcl_mrf_planes {
  * \param[in] threads 0: as many as the machine has cores
  * \return a label for every site, row by row; ties go to the smallest label
  */
-std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
-                                         unsigned int threads = 1);
+PCL_MRF_PLANES_EXPORT std::vector<std::uint16_t>
+propagateRows(const FieldRows& field, int iterations, unsigned int threads = 1);
 
 /** \brief beliefGaps() after the same sweep instead of the labels, the same bits: how much
  * worse the second best label of every site is. Costs about as much as propagateRows(). */

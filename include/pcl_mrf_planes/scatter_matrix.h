@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/plane.h>
 
@@ -15,7 +16,7 @@ namespace pcl_mrf_planes {
  * 1 m, 10 at 100 m, less than 0.1 mm at a kilometre. Sums of disjoint sets of points add
  * up to the sums of their union.
  */
-struct ScatterMatrix {
+struct PCL_MRF_PLANES_EXPORT ScatterMatrix {
   double n = 0.0;
   double x = 0.0, y = 0.0, z = 0.0;
   double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
@@ -66,7 +67,7 @@ struct ScatterMatrix {
 };
 
 /** \brief A least-squares plane and how well it fits. */
-struct PlaneFitResult {
+struct PCL_MRF_PLANES_EXPORT PlaneFitResult {
   bool valid = false; ///< false: fewer than three points, or points on a line
   Plane plane;        ///< turned towards the origin
   double error =
@@ -79,6 +80,6 @@ struct PlaneFitResult {
  * ALGEBRAIC minimises |M alpha| under |alpha| = 1 and divides by eta = |(a, b, c)|;
  * GEOMETRIC minimises the perpendicular distances themselves. Constant time.
  */
-PlaneFitResult fitPlane(const ScatterMatrix& sums, PlaneFit fit);
+PCL_MRF_PLANES_EXPORT PlaneFitResult fitPlane(const ScatterMatrix& sums, PlaneFit fit);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -9,13 +11,13 @@ namespace pcl_mrf_planes {
 
 /** \brief Where the sensor was in the frame of the cloud: p_cloud = rotation * p_sensor
  * + origin. */
-struct SensorPose {
+struct PCL_MRF_PLANES_EXPORT SensorPose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< metres
 };
 
 /** \brief A point of an organized cloud and its place in the image. */
-struct Sighting {
+struct PCL_MRF_PLANES_EXPORT Sighting {
   Eigen::Vector3d point; ///< metres, frame of the cloud
   Eigen::Vector2d pixel; ///< column, row
 };
@@ -27,8 +29,8 @@ struct Sighting {
  * The limit is an rms radius of 1/20 of the distance, a field of view of some six
  * degrees. O(sightings)
  */
-bool plausibleOrigin(const std::vector<Sighting>& sightings,
-                     const Eigen::Vector3d& origin);
+PCL_MRF_PLANES_EXPORT bool plausibleOrigin(const std::vector<Sighting>& sightings,
+                                           const Eigen::Vector3d& origin);
 
 /** \brief Find the pose of a pinhole camera from its own cloud.
  *
@@ -42,6 +44,7 @@ bool plausibleOrigin(const std::vector<Sighting>& sightings,
  * \param[out] pose set on success
  * \return false where no camera explains the points to a pixel: lidars, planar scenes
  */
-bool estimatePinholePose(const std::vector<Sighting>& sightings, SensorPose& pose);
+PCL_MRF_PLANES_EXPORT bool estimatePinholePose(const std::vector<Sighting>& sightings,
+                                               SensorPose& pose);
 
 } // namespace pcl_mrf_planes

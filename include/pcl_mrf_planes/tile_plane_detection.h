@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/scatter_matrix.h>
@@ -19,7 +20,7 @@ enum class TileState {
 };
 
 /** \brief The plane of one tile: a pixel of the "image of planar fits". */
-struct TilePlane {
+struct PCL_MRF_PLANES_EXPORT TilePlane {
   TileState state = TileState::TOO_FEW;
   ScatterMatrix sums;
   PlaneFitResult fit;
@@ -29,7 +30,7 @@ struct TilePlane {
 };
 
 /** \brief The image of planar fits: tile (column, row) at row * columns + column. */
-struct TileImage {
+struct PCL_MRF_PLANES_EXPORT TileImage {
   int tile_width = 0;
   int tile_height = 0;
   int columns = 0;
@@ -55,6 +56,7 @@ struct TileImage {
  * what is left. O(points + tiles); parallel over rows of tiles, the same at any thread
  * count.
  */
-TileImage detectTilePlanes(const OrganizedPoints& points, const Parameters& parameters);
+PCL_MRF_PLANES_EXPORT TileImage detectTilePlanes(const OrganizedPoints& points,
+                                                 const Parameters& parameters);
 
 } // namespace pcl_mrf_planes

@@ -23,6 +23,42 @@ if [ -e "$work/example/frames" ]; then
   grep -q '^scene: [0-9]* planes' <<<"$printed"
 fi
 
+# Versions: this one and older ones of its series are found, newer ones are not.
+version=$(awk '/^Version:/ {print $2}' "$(find "$work/prefix" -name 'pcl_mrf_planes.pc')")
+series=${version%.*}
+finds() { # a version; configures a project that asks for it
+  mkdir -p "$work/version"
+  printf '%s\n' 'cmake_minimum_required(VERSION 3.16)' 'project(version LANGUAGES C CXX)' \
+    "find_package(pcl_mrf_planes $1 REQUIRED)" >"$work/version/CMakeLists.txt"
+  "$cmake" -S "$work/version" -B "$work/version/build" \
+    -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/version/log" 2>&1
+}
+finds "$version" && finds "$series" ||
+  { cat "$work/version/log"; echo "version $version is not found" >&2; exit 1; }
+for newer in "$version.1" "$series.999" "$((${version%%.*} + 1)).0"; do
+  if finds "$newer"; then
+    echo "version $newer is found in $version" >&2
+    exit 1
+  fi
+done
+
+# The parts can be installed apart, and are together the whole.
+for component in library development tools; do
+  "$cmake" --install "$build" --prefix "$work/parts/$component" --component "$component" \
+    >/dev/null
+done
+list() { (cd "$1" && find . ! -type d | sort); }
+cmp <(list "$work/prefix") \
+  <(for part in "$work"/parts/*; do list "$part"; done | sort) ||
+  { echo "the components are not the whole installation" >&2; exit 1; }
+
+# What no public header exports is not to be seen in the library.
+library=$(find "$work/prefix" -name 'libpcl_mrf_planes.so')
+if nm -DC --defined-only "$library" | grep -E 'pcl_mrf_planes::(adaptive|findRuns|labelCells)'; then
+  echo "internal symbols are exported" >&2
+  exit 1
+fi
+
 # pkg-config gives flags that compile and link the same file.
 libdir=$(dirname "$(find "$work/prefix" -name 'pcl_mrf_planes.pc')")
 export PKG_CONFIG_PATH=$libdir
@@ -45,8 +81,8 @@ c++ -std=c++17 "$source/doc/example/frames.cpp" -o "$work/frames_by_pkg_config" 
 "$work/prefix/bin/pcl_mrf_plane_segmentation" --version
 "$work/prefix/bin/pcl_mrf_plane_evaluation" --version
 # Nothing of this machine's processor is in the flags that users get.
-if grep -rn -e '-march' -e '-mtune' -e '-mavx' "$work/prefix/lib"/*/cmake \
-  "$work/prefix/lib"/*/pkgconfig; then
+if grep -rn --include='*.cmake' --include='*.pc' -e '-march' -e '-mtune' -e '-mavx' \
+  "$work/prefix"; then
   echo "machine-specific flags are installed" >&2
   exit 1
 fi

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/io/cloud_file.h>
 #include <pcl_mrf_planes/io/image.h>
 
@@ -15,7 +16,7 @@ namespace pcl_mrf_planes::io {
  * Column u, row v and depth z metres are the point
  * ((u - cx) z / fx, (v - cy) z / fy, z): x right, y down, z forward.
  */
-struct CameraModel {
+struct PCL_MRF_PLANES_EXPORT CameraModel {
   double fx = 0.0; ///< focal lengths, points
   double fy = 0.0;
   double cx = 0.0; ///< principal point, points from the centre of the first one
@@ -32,16 +33,16 @@ struct CameraModel {
 };
 
 /** \brief Names that cameraPreset() knows. */
-std::vector<std::string> cameraPresetNames();
+PCL_MRF_PLANES_EXPORT std::vector<std::string> cameraPresetNames();
 
 /** \brief Camera of a sensor or of a data set by its published values.
  * \throws std::runtime_error for an unknown name, with the known ones */
-CameraModel cameraPreset(const std::string& name);
+PCL_MRF_PLANES_EXPORT CameraModel cameraPreset(const std::string& name);
 
 /** \brief Camera from an option: a preset's name, the name of a file, or
  * fx,fy,cx,cy[,depth_scale].
  * \throws std::runtime_error with what is wrong and what to do */
-CameraModel parseCamera(const std::string& text);
+PCL_MRF_PLANES_EXPORT CameraModel parseCamera(const std::string& text);
 
 /** \brief Camera from a JSON or YAML file.
  *
@@ -50,21 +51,23 @@ CameraModel parseCamera(const std::string& text);
  * (Camera.fx ..., DepthMapFactor).
  *
  * \throws std::runtime_error with the file's name, what is wrong and what to do */
-CameraModel readCameraFile(const std::string& path);
+PCL_MRF_PLANES_EXPORT CameraModel readCameraFile(const std::string& path);
 
 /** \brief The camera's file beside an image: NAME.camera.json for NAME.depth.png or
  * NAME.png, else camera.json, each also as .yaml and .yml; empty: there is none. */
-std::string findCameraFile(const std::string& image);
+PCL_MRF_PLANES_EXPORT std::string findCameraFile(const std::string& image);
 
 /** \brief The camera for an image of a size; nominal ones are scaled to it.
  * \throws std::runtime_error when it cannot be this image's camera, with what to do */
-CameraModel fittedTo(const CameraModel& camera, ImageSize size);
+PCL_MRF_PLANES_EXPORT CameraModel fittedTo(const CameraModel& camera, ImageSize size);
 
 /** \brief Metres from the values of a sensor; NaN for those that are not measured. */
-DepthMap toMetres(const Image16& values, const CameraModel& camera);
+PCL_MRF_PLANES_EXPORT DepthMap toMetres(const Image16& values,
+                                        const CameraModel& camera);
 
 /** \brief The organized cloud x, y, z that a camera sees; invalid points are NaN.
  * \param[in] camera fitted to the map */
-CloudFile cloudFromDepth(const DepthMap& depth, const CameraModel& camera);
+PCL_MRF_PLANES_EXPORT CloudFile cloudFromDepth(const DepthMap& depth,
+                                               const CameraModel& camera);
 
 } // namespace pcl_mrf_planes::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/io/cloud_file.h>
 #include <pcl_mrf_planes/io/image.h>
 
@@ -16,19 +17,22 @@ namespace pcl_mrf_planes::io {
  * \throws std::runtime_error when a field is missing, has another type, or no point has
  *         three finite coordinates
  */
-pcl::PointCloud<pcl::PointXYZ>::Ptr coordinates(const CloudFile& file);
+PCL_MRF_PLANES_EXPORT pcl::PointCloud<pcl::PointXYZ>::Ptr
+coordinates(const CloudFile& file);
 
 /** \brief Colour of every point from a field rgb or rgba; empty if there is none. */
-std::vector<Colour> colours(const CloudFile& file);
+PCL_MRF_PLANES_EXPORT std::vector<Colour> colours(const CloudFile& file);
 
 /** \brief The same cloud with a last field label (uint32); a field of that name is
  * dropped, and so is padding.
  * \param[in] labels a label for each point
  */
-CloudFile withLabels(const CloudFile& file, const pcl::PointCloud<pcl::Label>& labels);
+PCL_MRF_PLANES_EXPORT CloudFile withLabels(const CloudFile& file,
+                                           const pcl::PointCloud<pcl::Label>& labels);
 
 /** \brief The same cloud with a last field confidence (float); a field of that name is
  * dropped, and so is padding. \param[in] confidence a number for each point */
-CloudFile withConfidence(const CloudFile& file, const std::vector<float>& confidence);
+PCL_MRF_PLANES_EXPORT CloudFile withConfidence(const CloudFile& file,
+                                               const std::vector<float>& confidence);
 
 } // namespace pcl_mrf_planes::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <pcl/PCLPointCloud2.h>
 
 #include <Eigen/Core>
@@ -15,10 +17,10 @@ namespace pcl_mrf_planes::io {
 enum class PcdFormat { ASCII = 0, BINARY = 1, BINARY_COMPRESSED = 2 };
 
 /** \brief ascii, binary or binary_compressed. */
-const char* formatName(PcdFormat format);
+PCL_MRF_PLANES_EXPORT const char* formatName(PcdFormat format);
 
 /** \brief Columns and rows; zero by zero: not stated. */
-struct ImageSize {
+struct PCL_MRF_PLANES_EXPORT ImageSize {
   int width = 0;
   int height = 0;
 
@@ -30,7 +32,7 @@ struct ImageSize {
 };
 
 /** \brief An organized cloud with all its fields, as it stands in a file. */
-struct CloudFile {
+struct PCL_MRF_PLANES_EXPORT CloudFile {
   pcl::PCLPointCloud2 cloud;
   Eigen::Vector4f origin = Eigen::Vector4f::Zero(); ///< of the sensor, metres
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
@@ -42,11 +44,13 @@ struct CloudFile {
  * \param[in] size rows and columns of a file that states a single row
  * \throws std::runtime_error with the file's name, what is wrong and what to do
  */
-CloudFile readOrganizedCloud(const std::string& path, ImageSize size = {});
+PCL_MRF_PLANES_EXPORT CloudFile readOrganizedCloud(const std::string& path,
+                                                   ImageSize size = {});
 
 /** \brief Write a PCD file, whole or not at all, the sensor pose to the last bit.
  * \throws std::runtime_error with what is wrong and what to do
  */
-void writeCloud(const std::string& path, const CloudFile& file, PcdFormat format);
+PCL_MRF_PLANES_EXPORT void writeCloud(const std::string& path, const CloudFile& file,
+                                      PcdFormat format);
 
 } // namespace pcl_mrf_planes::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/io/camera_model.h>
 #include <pcl_mrf_planes/io/cloud_file.h>
 #include <pcl_mrf_planes/io/image.h>
@@ -14,7 +15,7 @@
 namespace pcl_mrf_planes::io {
 
 /** \brief What a reader takes from the user; all may be left out. */
-struct ReadOptions {
+struct PCL_MRF_PLANES_EXPORT ReadOptions {
   std::optional<CameraModel> camera; ///< of depth images; wins over files beside them
   ImageSize size;                    ///< of clouds that do not state rows and columns
   bool filled_depth =
@@ -22,7 +23,7 @@ struct ReadOptions {
 };
 
 /** \brief One organized cloud, and what the file or its data set has beside it. */
-struct Frame {
+struct PCL_MRF_PLANES_EXPORT Frame {
   CloudFile file;
   std::vector<Colour> colours;       ///< for pictures, one for each point; or none
   std::vector<std::uint16_t> truth;  ///< plane of each point, 0 none; or empty
@@ -30,7 +31,7 @@ struct Frame {
 };
 
 /** \brief A frame that can be read. */
-struct FrameSource {
+struct PCL_MRF_PLANES_EXPORT FrameSource {
   std::string name;   ///< relative path without ending, for the results' files
   std::string input;  ///< the file, with what is meant in it
   std::string reader; ///< which of the readers of doc/inputs.md
@@ -40,7 +41,7 @@ struct FrameSource {
 };
 
 /** \brief The frames of some inputs. */
-struct FrameList {
+struct PCL_MRF_PLANES_EXPORT FrameList {
   std::vector<FrameSource> frames;      ///< in the order of the inputs, then by name
   std::vector<std::string> passed_over; ///< files in folders that are no frames
 };
@@ -58,7 +59,8 @@ struct FrameList {
  * \throws std::runtime_error when the only input is a folder without a frame or a pattern
  *         that fits nothing, with its name and what to do
  */
-FrameList listFrames(const std::vector<std::string>& inputs, const ReadOptions& options,
-                     const std::string& excluded = {});
+PCL_MRF_PLANES_EXPORT FrameList listFrames(const std::vector<std::string>& inputs,
+                                           const ReadOptions& options,
+                                           const std::string& excluded = {});
 
 } // namespace pcl_mrf_planes::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +15,7 @@ using Colour = std::array<std::uint8_t, 3>;
 
 /** \brief A picture, row by row from the top. */
 template <typename Pixel>
-struct Image {
+struct PCL_MRF_PLANES_EXPORT Image {
   int width = 0;
   int height = 0;
   std::vector<Pixel> pixels;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
+
 #include <functional>
 #include <string>
 
@@ -17,20 +19,22 @@ namespace pcl_mrf_planes::io {
  * \param[in] write writes the file that it is given the name of, throws if it cannot
  * \throws std::runtime_error with a sentence that says what to do
  */
-void writeAtomically(const std::string& path,
-                     const std::function<void(const std::string& temporary)>& write);
+PCL_MRF_PLANES_EXPORT void
+writeAtomically(const std::string& path,
+                const std::function<void(const std::string& temporary)>& write);
 
 /** \brief Write bytes so that the file is there whole or not at all.
  * \throws std::runtime_error with a sentence that says what to do */
-void writeBytes(const std::string& path, const std::string& bytes);
+PCL_MRF_PLANES_EXPORT void writeBytes(const std::string& path,
+                                      const std::string& bytes);
 
 /** \brief Remove the temporary files of every writeAtomically() that is under way.
  *
  * For a signal handler that ends the program: calls nothing but unlink(). */
-void removePartialFiles();
+PCL_MRF_PLANES_EXPORT void removePartialFiles();
 
 /** \brief Throw what writeAtomically() would throw for a target that cannot be written,
  * before the work that leads to it. Leaves no trace. */
-void checkWritable(const std::string& path);
+PCL_MRF_PLANES_EXPORT void checkWritable(const std::string& path);
 
 } // namespace pcl_mrf_planes::io
