@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/parameters.h>
 
+#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -36,7 +37,7 @@ void checkAdaptive(const AdaptiveParameters& p, RangeCheck& range)
   constexpr double SMALLEST = 1e-6;
   range.check("sampling", p.sampling, 1, 8);
   range.check("levels", p.levels, 2, 8);
-  range.check("smallest_level", p.smallest_level, 0, p.levels - 1);
+  range.check("smallest_level", p.smallest_level, 0, std::max(p.levels, 1) - 1);
   range.check("tile_tolerance", p.tile_tolerance, SMALLEST, LARGEST);
   range.check("min_fill", p.min_fill, 0, 1);
   range.check("noise_percentile", p.noise_percentile, 0, 1);

@@ -57,8 +57,8 @@ void spoil(Bytes& bytes, Cloud& cloud)
 
 Cloud::Ptr makeCloud(Bytes& bytes)
 {
-  const int width = bytes.within(0, 96);
-  const int height = bytes.within(0, 96);
+  const int width = bytes.within(0, 48);
+  const int height = bytes.within(0, 48);
   const int shape = bytes.byte();
   Cloud::Ptr cloud(new Cloud);
   cloud->width = static_cast<std::uint32_t>(width);

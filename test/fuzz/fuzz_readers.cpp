@@ -25,22 +25,26 @@ namespace pcl_mrf_planes::fuzz {
 namespace {
 
 /// A folder of this process in memory where there is one, for the readers take names.
-const std::string& folder()
-{
-  static const std::string name = [] {
-    const bool memory = std::filesystem::is_directory("/dev/shm");
-    const std::string made = std::string(memory ? "/dev/shm" : "/tmp") +
-                             "/fuzz_readers." + std::to_string(getpid());
-    std::filesystem::create_directories(made);
-    std::atexit([] { std::filesystem::remove_all(folder()); });
-    return made;
-  }();
-  return name;
-}
+struct Folder {
+  std::string name;
+
+  Folder()
+  : name(std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp")
+  {
+    name += "/fuzz_readers." + std::to_string(getpid());
+    std::filesystem::create_directories(name);
+  }
+  ~Folder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(name, ignored);
+  }
+};
 
 std::string store(const char* name, const std::string& bytes)
 {
-  const std::string path = folder() + "/" + name;
+  static const Folder folder;
+  const std::string path = folder.name + "/" + name;
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }

@@ -110,7 +110,7 @@ def point_starts():
     for profile in range(3):
         for shape in range(6):
             for switches in (0, 7, 16, 55):
-                yield (struct.pack("<BBHHBB", profile, switches, 60 + shape, 50, shape, 0)
+                yield (struct.pack("<BBHHBB", profile, switches, 40 + shape, 36, shape, 0)
                        + bytes(3))
 
 
