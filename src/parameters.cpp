@@ -3,6 +3,7 @@
 
 #include <pcl_mrf_planes/parameter_table.h>
 
+#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -55,7 +56,8 @@ std::string Parameters::validate() const
   for (const ParameterEntry& entry : parameterTable())
     if (entry.choices.empty())
       range.check(entry.name.c_str(), entry.get(*this), entry.low, entry.high);
-  range.check("smallest_level", adaptive.smallest_level, 0, adaptive.levels - 1);
+  range.check("smallest_level", adaptive.smallest_level, 0,
+              std::max(adaptive.levels, 1) - 1);
   if (!range.message().empty())
     return range.message();
   if (adaptive.fan_parts == 1)

@@ -168,6 +168,14 @@ TEST(ParametersTest, TheSmallestTilesAreNoneOfTheLargest)
   }
 }
 
+TEST(ParametersTest, NoNumberOfLevelsIsTooFarOut)
+{
+  // Found by fuzzing: the check of the next parameter took one from this one.
+  Parameters p;
+  p.adaptive.levels = std::numeric_limits<int>::min();
+  EXPECT_NE(p.validate().find("levels"), std::string::npos) << p.validate();
+}
+
 TEST(ParametersTest, OnePlaneIsNoFan)
 {
   Parameters p;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/parameters.h>
 
 #include <string>
@@ -22,7 +23,7 @@ enum class ParameterUse {
  * sliders all go by these. Every value is a number here; that of a choice is its place
  * among the choices, that of a switch is 0 or 1.
  */
-struct ParameterEntry {
+struct PCL_MRF_PLANES_EXPORT ParameterEntry {
   using Member = std::variant<int Parameters::*, double Parameters::*,
                               unsigned int Parameters::*, bool Parameters::*,
                               PlaneFit Parameters::*, DepthMeasure Parameters::*,
@@ -54,9 +55,9 @@ struct ParameterEntry {
 
 /** \brief All parameters but the noise model, which is three numbers, in the order of
  * --help. */
-const std::vector<ParameterEntry>& parameterTable();
+PCL_MRF_PLANES_EXPORT const std::vector<ParameterEntry>& parameterTable();
 
 /** \brief The entry of that name, or null. */
-const ParameterEntry* findParameter(const std::string& name);
+PCL_MRF_PLANES_EXPORT const ParameterEntry* findParameter(const std::string& name);
 
 } // namespace pcl_mrf_planes

@@ -37,8 +37,9 @@ PCL_MRF_PLANES_EXPORT void projectOntoPlanes(const std::vector<PlaneRegion>& reg
  * \param[in] origin where the plane has its origin, the sensor
  * \param[in] stride floats from a point to the next
  * \param[in,out] first x of the first point */
-void projectPoints(const Plane& plane, const Eigen::Vector3d& origin, ProjectionWay way,
-                   const std::vector<int>& indices, std::size_t stride, float* first);
+PCL_MRF_PLANES_EXPORT void
+projectPoints(const Plane& plane, const Eigen::Vector3d& origin, ProjectionWay way,
+              const std::vector<int>& indices, std::size_t stride, float* first);
 
 /** \brief Indices of the points that belong to no region, ascending. O(points)
  * \param[in] labels per point: 0 no plane

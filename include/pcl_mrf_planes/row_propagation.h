@@ -34,7 +34,7 @@ propagateRows(const FieldRows& field, int iterations, unsigned int threads = 1);
 
 /** \brief beliefGaps() after the same sweep instead of the labels, the same bits: how much
  * worse the second best label of every site is. Costs about as much as propagateRows(). */
-std::vector<std::uint16_t> propagateRowGaps(const FieldRows& field, int iterations,
-                                            unsigned int threads = 1);
+PCL_MRF_PLANES_EXPORT std::vector<std::uint16_t>
+propagateRowGaps(const FieldRows& field, int iterations, unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes

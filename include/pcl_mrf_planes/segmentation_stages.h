@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/export.h>
 #include <pcl_mrf_planes/organized_points.h>
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/plane.h>
@@ -25,10 +26,10 @@ enum class Stage {
 };
 
 /** \brief The stage in a word: "merged", "joined", "cells", "iteration", ... */
-std::string stageName(Stage stage);
+PCL_MRF_PLANES_EXPORT std::string stageName(Stage stage);
 
 /** \brief A tile that was looked at and what became of it. */
-struct StageTile {
+struct PCL_MRF_PLANES_EXPORT StageTile {
   static constexpr int NONE = -1;
   int x = 0, y = 0;          ///< first point
   int width = 0, height = 0; ///< points, those outside of the image left out
@@ -39,7 +40,7 @@ struct StageTile {
 };
 
 /** \brief The labels as they stand after a stage. */
-struct StageLabels {
+struct PCL_MRF_PLANES_EXPORT StageLabels {
   Stage stage = Stage::FINAL;
   int count = 0;                     ///< iterations, passes or rounds done, from 0
   std::vector<std::uint16_t> labels; ///< per point: 0 no plane, k planes[k - 1]
@@ -50,7 +51,7 @@ struct StageLabels {
 };
 
 /** \brief How a segmentation came about, to be looked at and taught. */
-struct SegmentationStages {
+struct PCL_MRF_PLANES_EXPORT SegmentationStages {
   int width = 0, height = 0; ///< of all images of labels
   /// Method::PAPER: all of the grid. Method::ADAPTIVE: those chosen, the largest first.
   std::vector<StageTile> tiles;
@@ -69,7 +70,7 @@ struct SegmentationStages {
  * \param[in] points the cloud in the sensor frame
  * \param[in] parameters must pass Parameters::validate()
  */
-SegmentationStages recordStages(const OrganizedPoints& points,
-                                const Parameters& parameters);
+PCL_MRF_PLANES_EXPORT SegmentationStages recordStages(const OrganizedPoints& points,
+                                                      const Parameters& parameters);
 
 } // namespace pcl_mrf_planes

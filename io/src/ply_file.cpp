@@ -5,6 +5,7 @@
 
 #include <pcl/io/ply_io.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -16,6 +17,7 @@ namespace pcl_mrf_planes::io {
 namespace {
 
 constexpr std::size_t LONGEST_HEADER = 1 << 16; // bytes
+constexpr double MOST_BYTES = 1e18;             // what a message can name
 
 struct Header {
   std::size_t size = 0; ///< bytes
@@ -87,16 +89,19 @@ void check(const Header& header, const std::string& path)
 {
   if (!(header.vertices >= 1.0))
     throw std::runtime_error("has no points; give it a cloud with points");
+  if (header.vertex_bytes == 0)
+    failHeader("element vertex without properties");
   const double needed =
       header.vertices * static_cast<double>(header.vertex_bytes) - 1.0;
   const auto there =
       static_cast<double>(std::filesystem::file_size(path) - header.size);
-  if (header.vertex_bytes == 0 || needed > there)
-    throw std::runtime_error("is truncated: its header asks for at least " +
-                             std::to_string(static_cast<std::uint64_t>(needed)) +
-                             " bytes of points, the file holds " +
-                             std::to_string(static_cast<std::uint64_t>(there)) +
-                             "; copy or record it again");
+  if (needed > there) // any number may stand there
+    throw std::runtime_error(
+        "is truncated: its header asks for at least " +
+        std::to_string(static_cast<std::uint64_t>(std::min(needed, MOST_BYTES))) +
+        " bytes of points, the file holds " +
+        std::to_string(static_cast<std::uint64_t>(there)) +
+        "; copy or record it again");
   const double claimed = header.columns * header.rows;
   if (claimed > static_cast<double>(MOST_PIXELS) ||
       (claimed > 0.0 && claimed < header.vertices) ||

@@ -103,6 +103,13 @@ TEST_F(PlyFiles, DamagedOnesGiveAMessage)
   expectError("huge.ply", {"truncated"});
   write("no_end.ply", "ply\nformat ascii 1.0\nelement vertex 6\n");
   expectError("no_end.ply", {"end_header"});
+  // Found by fuzzing.
+  write("bare.ply",
+        "ply\nformat binary_little_endian 1.0\nelement vertex 6\nend_header\n");
+  expectError("bare.ply", {"damaged header", "without properties"});
+  write("beyond.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1e30\n"
+                      "property float x\nend_header\n1234");
+  expectError("beyond.ply", {"truncated"});
   write("type.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\n"
                     "property colour x\nend_header\n123456789");
   expectError("type.ply", {"unknown type"});

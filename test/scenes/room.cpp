@@ -55,8 +55,10 @@ private:
   void placeCamera()
   {
     const double side = random_.uniform(0.25, 0.75);
-    const Vector3d position(side * width_, random_.uniform(0.3, 0.7),
-                            random_.uniform(1.2, 1.7));
+    // One draw a statement: the order of a call's arguments is the compiler's.
+    const double up = random_.uniform(1.2, 1.7);
+    const double ahead = random_.uniform(0.3, 0.7);
+    const Vector3d position(side * width_, ahead, up);
     const Vector3d target((1.0 - side) * width_ * 0.6 + 0.2 * width_, 0.75 * depth_,
                           random_.uniform(0.5, 0.9));
     view_.camera = lookAt(position, target);
@@ -189,15 +191,18 @@ private:
     const Eigen::Isometry3d left = pose * standAt({-0.28 * size.x(), 0, size.z()},
                                                   random_.uniform(0.0, HALF_TURN));
     const Eigen::Isometry3d right = pose * standAt({0.28 * size.x(), 0, size.z()});
-    addBox(scene, left,
-           {random_.uniform(0.15, 0.3), random_.uniform(0.15, 0.3),
-            random_.uniform(0.1, 0.35)},
-           pastel());
+    const Colour colour = pastel();
+    const Vector3d box{random_.uniform(0.15, 0.3), random_.uniform(0.15, 0.3),
+                       random_.uniform(0.1, 0.35)};
+    addBox(scene, left, box, colour);
     const int kind = random_.integer(0, 3);
+    if (kind > 1)
+      return;
+    const Colour other = pastel();
     if (kind == 0)
-      addBall(scene, right, random_.uniform(0.07, 0.13), pastel());
-    else if (kind == 1)
-      addDrum(scene, right, 0.08, random_.uniform(0.15, 0.3), pastel());
+      addBall(scene, right, random_.uniform(0.07, 0.13), other);
+    else
+      addDrum(scene, right, 0.08, random_.uniform(0.15, 0.3), other);
   }
 
   Random random_;
