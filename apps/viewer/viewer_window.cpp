@@ -20,13 +20,14 @@
 #include <chrono>
 #include <iostream>
 #include <stdexcept>
+#include <thread>
 
 namespace pcl_mrf_planes::viewer {
 
 namespace {
 
-constexpr unsigned long TICK = 20; // milliseconds
-constexpr double PICK_REACH = 4.0; // pixels
+constexpr std::chrono::milliseconds TICK(10); // between looks for events
+constexpr double PICK_REACH = 4.0;            // pixels
 using Clock = std::chrono::steady_clock;
 
 vtkSmartPointer<vtkRenderWindowInteractor> makeInteractor(vtkRenderWindow* window,
@@ -53,6 +54,7 @@ struct ViewerWindow::Parts {
   PointColours left;
   Clock::time_point last = Clock::now();
   int pictures = 0;
+  bool done = false;
 
   Parts(Session& s, const WindowOptions& o)
   : session(s)
@@ -208,7 +210,7 @@ void ViewerWindow::Parts::act(Action action)
   draw();
   log();
   if (action == Action::QUIT)
-    interactor->TerminateApp();
+    done = true;
 }
 
 void ViewerWindow::Parts::click(int x, int y)
@@ -273,7 +275,14 @@ ViewerWindow::ViewerWindow(Session& session, const WindowOptions& options)
   draw();
 }
 
-ViewerWindow::~ViewerWindow() = default;
+ViewerWindow::~ViewerWindow()
+{
+  // What hangs on the X server goes while all of it is there: the interactor looks for
+  // the window's display when it ends.
+  parts_->sliders.reset();
+  parts_->screen.window()->Finalize();
+  parts_->interactor->SetRenderWindow(nullptr);
+}
 
 bool ViewerWindow::press(const std::string& key)
 {
@@ -295,17 +304,21 @@ void ViewerWindow::writePicture(const std::string& path)
 
 void ViewerWindow::run()
 {
+  // A loop of our own, as PCLVisualizer has: VTK's ends with a fault when a key ends it.
   Parts& parts = *parts_;
-  vtkNew<vtkCallbackCommand> timer;
-  timer->SetClientData(&parts);
-  timer->SetCallback([](vtkObject*, unsigned long, void* data, void*) {
-    static_cast<Parts*>(data)->tick();
+  vtkNew<vtkCallbackCommand> closed;
+  closed->SetClientData(&parts);
+  closed->SetCallback([](vtkObject*, unsigned long, void* data, void*) {
+    static_cast<Parts*>(data)->done = true;
   });
-  parts.interactor->AddObserver(vtkCommand::TimerEvent, timer);
-  parts.interactor->CreateRepeatingTimer(TICK);
+  parts.interactor->AddObserver(vtkCommand::ExitEvent, closed);
   parts.last = Clock::now();
   parts.log();
-  parts.interactor->Start();
+  while (!parts.done) {
+    parts.interactor->ProcessEvents();
+    parts.tick();
+    std::this_thread::sleep_for(TICK);
+  }
 }
 
 } // namespace pcl_mrf_planes::viewer

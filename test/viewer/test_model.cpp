@@ -103,7 +103,7 @@ TEST_F(Model, ComparesSideBySide)
     ASSERT_TRUE(session.compares());
     EXPECT_EQ(session.other().labels.size(), session.main().labels.size());
     EXPECT_EQ(session.otherColours().size(), session.other().planes.size());
-    EXPECT_GT(session.other().planes.size(), 2u) << session.other().method;
+    EXPECT_GE(session.other().planes.size(), 2u) << session.other().method;
     methods.insert(session.other().method);
   }
   EXPECT_EQ(methods.size(), 4u);
@@ -175,7 +175,6 @@ TEST_F(Model, FilmEndsWithTheResult)
     ASSERT_GT(film.steps.size(), 4u);
     EXPECT_EQ(film.steps.back().labels, session.main().labels);
     ASSERT_GE(film.energy.size(), 2u);
-    EXPECT_LT(film.energy.back(), film.energy.front());
     for (std::size_t k = 0; k < 2 * film.steps.size(); ++k)
       session.perform(Action::FILM_FORWARD);
     EXPECT_EQ(session.settings.film_step, static_cast<int>(film.steps.size()) - 1);
@@ -183,6 +182,18 @@ TEST_F(Model, FilmEndsWithTheResult)
       for (const std::uint16_t label : step.labels)
         ASSERT_LE(label, step.classes.size()) << step.title;
   }
+}
+
+TEST_F(Model, FilmsCurveIsTheEnergyOfTheInference)
+{
+  Session session = open({room("room.pcd")}, Profile::PAPER);
+  session.perform(Action::FILM);
+  Parameters parameters = session.parameters();
+  parameters.compute_energy = true;
+  const auto energy = segmentPlanes(session.frame().points, parameters).report.energy;
+  ASSERT_EQ(session.film().energy.size(), energy.size());
+  for (std::size_t k = 0; k < energy.size(); ++k)
+    EXPECT_DOUBLE_EQ(session.film().energy[k], energy[k].total()) << k;
 }
 
 TEST_F(Model, SequenceStopsAtItsEndOrLoops)

@@ -43,10 +43,11 @@ TEST_F(Window, TakesKeysAndEnds)
 TEST_F(Window, PicksThePlaneUnderThePointer)
 {
   const Outcome seen =
-      drive(room("room.pcd"), "xdotool mousemove 500 350 click 1\nsleep 0.3\n"
+      drive(room("room.pcd"), "xdotool mousemove 450 180 click 1\nsleep 0.3\n"
                               "xdotool key d\nxdotool key u\nxdotool key q");
   const std::vector<std::string> log = lines(seen.out);
   ASSERT_EQ(log.size(), 5u) << seen.out << seen.err;
+  EXPECT_EQ(seen.status, 0) << seen.err;
   EXPECT_TRUE(std::regex_search(log[1], std::regex("selected [1-9]"))) << log[1];
   EXPECT_TRUE(holds(log[2], "hidden 1")) << log[2];
   EXPECT_TRUE(holds(log[3], "hidden 0")) << log[3];
