@@ -2,13 +2,47 @@
 #include "display.h"
 
 #include <X11/Xlib.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <string>
-#include <vector>
 
 namespace pcl_mrf_planes::viewer {
+
+namespace {
+
+/// The child's part: the server writes the number that it chose into the pipe.
+[[noreturn]] void becomeServer(int number_pipe)
+{
+  prctl(PR_SET_PDEATHSIG, SIGTERM); // it must not outlive a program that was killed
+  const int nowhere = open("/dev/null", O_WRONLY);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  const std::string pipe_name = std::to_string(number_pipe);
+  // Without -noreset it starts anew whenever its last client leaves, as the one does that
+  // asks whether it answers; who comes meanwhile is turned away.
+  execlp("Xvfb", "Xvfb", "-displayfd", pipe_name.c_str(), "-screen", "0",
+         "1280x1024x24", "-nolisten", "tcp", "-noreset", static_cast<char*>(nullptr));
+  _exit(127);
+}
+
+/// Up to the end of the line, which comes when the server is ready; empty if it ended.
+std::string readLine(int pipe)
+{
+  std::string line;
+  for (char c = 0; read(pipe, &c, 1) == 1;) {
+    if (c == '\n')
+      return line;
+    line += c;
+  }
+  return {};
+}
+
+} // namespace
 
 bool hasDisplay()
 {
@@ -19,24 +53,33 @@ bool hasDisplay()
   return true;
 }
 
-void restartUnderXvfb(char* argv[])
+// The server chooses the number itself: two that start at once cannot choose the same, as
+// those of xvfb-run -a can.
+bool VirtualDisplay::start()
 {
-  constexpr const char* MARK = "PCL_MRF_PLANES_VIEWER_XVFB";
-  if (std::getenv(MARK) != nullptr) // it was tried, and its display does not answer
+  int ends[2];
+  if (pipe(ends) != 0)
+    return false;
+  server_ = fork();
+  if (server_ == 0) {
+    close(ends[0]);
+    becomeServer(ends[1]);
+  }
+  close(ends[1]);
+  const std::string number = server_ > 0 ? readLine(ends[0]) : "";
+  close(ends[0]);
+  if (number.empty())
+    return false;
+  setenv("DISPLAY", (":" + number).c_str(), 1);
+  return hasDisplay();
+}
+
+VirtualDisplay::~VirtualDisplay()
+{
+  if (server_ <= 0)
     return;
-  setenv(MARK, "1", 1);
-  std::string server = "-screen 0 1280x1024x24";
-  std::string self = "/proc/self/exe";
-  char resolved[4096];
-  const ssize_t length = readlink(self.c_str(), resolved, sizeof(resolved) - 1);
-  self = length > 0 ? std::string(resolved, static_cast<std::size_t>(length)) : argv[0];
-  std::string run = "xvfb-run", any = "-a", with = "-s";
-  std::vector<char*> words = {run.data(), any.data(), with.data(), server.data(),
-                              self.data()};
-  for (char** word = argv + 1; *word != nullptr; ++word)
-    words.push_back(*word);
-  words.push_back(nullptr);
-  execvp("xvfb-run", words.data());
+  kill(server_, SIGTERM);
+  waitpid(server_, nullptr, 0);
 }
 
 } // namespace pcl_mrf_planes::viewer

@@ -41,18 +41,15 @@ void writeFilm(Session& session, ViewerWindow& window, const std::string& folder
   }
 }
 
-int show(const ViewerOptions& options, char* argv[])
+int show(const ViewerOptions& options)
 {
   io::FrameList list = io::listFrames(options.inputs, options.read);
   Session session(std::move(list.frames), options.parameters, options.profile);
   session.setParameterFile(options.parameter_file);
-  if (!hasDisplay()) {
-    if (options.window.off_screen)
-      restartUnderXvfb(argv);
-    throw std::runtime_error(
-        "there is no X display; set DISPLAY, or install xvfb (with xauth) and give "
-        "--screenshot FILE.png or --film FOLDER");
-  }
+  VirtualDisplay virtual_display; // outlives the window
+  if (!hasDisplay() && !(options.window.off_screen && virtual_display.start()))
+    throw std::runtime_error("there is no X display; set DISPLAY, or install xvfb and "
+                             "give --screenshot FILE.png or --film FOLDER");
   ViewerWindow window(session, options.window);
   for (const std::string& key : options.keys)
     window.press(key);
@@ -78,7 +75,7 @@ int main(int argc, char* argv[])
     else if (options.version)
       std::cout << PROGRAM << ' ' << PCL_MRF_PLANES_VERSION << '\n';
     else
-      return show(options, argv);
+      return show(options);
     return 0;
   }
   catch (const apps::UsageError& error) {

@@ -114,7 +114,7 @@ TEST_F(Pictures, SlidersStayWhenTheViewChanges)
   EXPECT_GT(countColour(picture(input, "f s 2"), knob), 500u);
 }
 
-TEST_F(Pictures, FilmShowsEveryStepAndTheEnergyFalls)
+TEST_F(Pictures, FilmShowsEveryStep)
 {
   const Outcome seen = view({room("room.pcd"), "--profile", "paper", "--keys", "a",
                              "--film", path("film"), "--window", "640x480"});

@@ -42,7 +42,7 @@ Outcome ViewerTest::drive(const std::string& input, const std::string& commands,
                         << "xdotool mousemove 500 350\n"
                         << commands << "\nwait $viewer\n";
   return run("/usr/bin/env", {"-u", "DISPLAY", "xvfb-run", "-a", "-s",
-                              "-screen 0 1280x1024x24", "sh", script});
+                              "-noreset -screen 0 1280x1024x24", "sh", script});
 }
 
 io::ColourImage readPicture(const std::string& path)
