@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/noise_estimation.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,8 @@ struct Sample {
   double z, rms;
 };
 
-double percentile(std::vector<double> v, double p)
+/// Orders the numbers as it needs.
+double percentile(std::vector<double>& v, double p)
 {
   if (v.empty())
     return 0;
@@ -166,7 +168,7 @@ void estimateGrowth(const std::vector<TileLevel>& pyramid,
   std::vector<double> step(pyramid.size(), 1.0);
   double cumulated = 1;
   for (std::size_t l = 1; l < pyramid.size(); ++l) {
-    const std::vector<double> ratios =
+    std::vector<double> ratios =
         growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise, parameters);
     if (ratios.size() >= FEWEST)
       step[l] = std::clamp(percentile(ratios, parameters.growth_percentile), 1.0,
@@ -237,7 +239,8 @@ private:
 /// percentile of the tiles near, so that edges do not count.
 std::vector<double> localFactors(const TileLevel& level, const TileLevel& squares,
                                  const NoiseLaw& noise,
-                                 const AdaptiveParameters& parameters)
+                                 const AdaptiveParameters& parameters,
+                                 unsigned int threads)
 {
   constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
@@ -246,8 +249,8 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
   const TileCounts quiet(
       level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
   std::vector<double> factors(squares.at(0, squares.rows), 1.0);
-  std::vector<double> around;
-  for (int r = 0; r < squares.rows; ++r)
+  parallelRows(squares.rows, threads, [&](int r) {
+    std::vector<double> around;
     for (int c = 0; c < squares.columns; ++c) {
       const TileWindow window = {
           std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
@@ -263,13 +266,14 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
       factors[squares.at(c, r)] = std::clamp(
           percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
     }
+  });
   return factors;
 }
 
 /// Pools the noise of the level below, and tells it to the planes.
-void poolNoise(const TileLevel& below, TileLevel& level)
+void poolNoise(const TileLevel& below, TileLevel& level, unsigned int threads)
 {
-  for (int r = 0; r < level.rows; ++r)
+  parallelRows(level.rows, threads, [&](int r) {
     for (int c = 0; c < level.columns; ++c) {
       TileSums& sums = level.sums[level.at(c, r)];
       if (sums.n < 1)
@@ -280,6 +284,7 @@ void poolNoise(const TileLevel& below, TileLevel& level)
           sums.noise += below.sums[below.at(k, j)].noise;
       level.planes[level.at(c, r)].noise = sums.noise / sums.n;
     }
+  });
 }
 
 } // namespace
@@ -315,7 +320,7 @@ NoiseLaw statedNoise(const NoiseModel& stated, const std::vector<TileLevel>& pyr
 }
 
 void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                      const AdaptiveParameters& parameters)
+                      const AdaptiveParameters& parameters, unsigned int threads)
 {
   // Squares of 2x2 tiles of the base level are the tiles of the level above, if there is
   // one.
@@ -323,9 +328,9 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
   squares.columns = (pyramid[BASE].columns + 1) / 2;
   squares.rows = (pyramid[BASE].rows + 1) / 2;
   const std::vector<double> factors =
-      localFactors(pyramid[BASE], squares, noise, parameters);
+      localFactors(pyramid[BASE], squares, noise, parameters, threads);
   TileLevel& cells = pyramid[0];
-  for (int r = 0; r < cells.rows; ++r)
+  parallelRows(cells.rows, threads, [&](int r) {
     for (int c = 0; c < cells.columns; ++c) {
       TileSums& sums = cells.sums[cells.at(c, r)];
       if (sums.n < 1)
@@ -335,8 +340,9 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
       const double sigma = noise.small(range) * factors[squares.at(c / 4, r / 4)];
       sums.noise = sums.n * sigma * sigma;
     }
+  });
   for (std::size_t l = 1; l < pyramid.size(); ++l)
-    poolNoise(pyramid[l - 1], pyramid[l]);
+    poolNoise(pyramid[l - 1], pyramid[l], threads);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_graph.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -27,36 +29,34 @@ bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
 
 namespace {
 
-/// Takes tiles level by level, where none of a larger one lies yet.
+/// Takes tiles of a part of the image level by level, where none of a larger one lies yet.
 class TileSelection {
 public:
+  /// \param cell_region region of each cell of the image, none yet in this part
   TileSelection(const TileLevel& cells, const NoiseLaw& noise,
-                const AdaptiveParameters& parameters)
+                const AdaptiveParameters& parameters, std::vector<int>& cell_region)
   : cells_(cells)
   , noise_(noise)
   , parameters_(parameters)
-  {
-    regions.cell_region.assign(cells.sums.size(), -1);
-  }
+  , cell_region_(cell_region)
+  {}
 
-  void addLevel(const TileLevel& level)
+  void addRow(const TileLevel& level, int row)
   {
-    for (int row = 0; row < level.rows; ++row) {
-      findFree(level, row);
-      if (level.planes.empty()) {
-        planes_.resize(free_.size());
-        fitPlanes(sums_.data(), sums_.size(), planes_.data());
-      }
-      for (std::size_t k = 0; k < free_.size(); ++k) {
-        const FittedPlane& plane =
-            level.planes.empty() ? planes_[k] : level.planes[level.at(free_[k], row)];
-        if (isFlat(plane))
-          add(level, free_[k], row, plane);
-      }
+    findFree(level, row);
+    if (level.planes.empty()) {
+      planes_.resize(free_.size());
+      fitPlanes(sums_.data(), sums_.size(), planes_.data());
+    }
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const FittedPlane& plane =
+          level.planes.empty() ? planes_[k] : level.planes[level.at(free_[k], row)];
+      if (isFlat(plane))
+        add(level, free_[k], row, plane);
     }
   }
 
-  TileRegions regions;
+  FittedRegions regions;
 
 private:
   /// Columns of a row of tiles that no larger tile covers.
@@ -67,7 +67,7 @@ private:
     sums_.clear();
     for (int column = 0; column < level.columns; ++column) {
       const std::size_t tile = level.at(column, row);
-      if (regions.cell_region[cells_.at(column * k, row * k)] >= 0 ||
+      if (cell_region_[cells_.at(column * k, row * k)] >= 0 ||
           !isFilled(level, tile, parameters_))
         continue;
       free_.push_back(column);
@@ -88,39 +88,71 @@ private:
   void add(const TileLevel& level, int column, int row, const FittedPlane& plane)
   {
     const int id = static_cast<int>(regions.planes.size());
-    regions.planes.push_back(plane);
-    regions.sums.push_back(level.sums[level.at(column, row)]);
+    regions.add(plane, level.sums[level.at(column, row)]);
     const int k = level.side / CELL;
     for (int r = row * k; r < std::min((row + 1) * k, cells_.rows); ++r)
       for (int c = column * k; c < std::min((column + 1) * k, cells_.columns); ++c)
-        regions.cell_region[cells_.at(c, r)] = id;
+        cell_region_[cells_.at(c, r)] = id;
   }
 
   const TileLevel& cells_;
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
+  std::vector<int>& cell_region_;
   // of the row at hand
   std::vector<int> free_;
   std::vector<TileSums> sums_;
   std::vector<FittedPlane> planes_;
 };
 
+/// Numbers the regions of the parts one after the other.
+TileRegions joinParts(const std::vector<TileSelection>& parts, const Bands& bands,
+                      const TileLevel& cells, int cells_a_row,
+                      std::vector<int> cell_region)
+{
+  TileRegions out;
+  for (int band = 0; band < bands.count; ++band) {
+    const FittedRegions& part = parts[static_cast<std::size_t>(band)].regions;
+    const int first = static_cast<int>(out.planes.size());
+    out.planes.insert(out.planes.end(), part.planes.begin(), part.planes.end());
+    out.sums.insert(out.sums.end(), part.sums.begin(), part.sums.end());
+    const int end = std::min(bands.begin(band + 1) * cells_a_row, cells.rows);
+    for (std::size_t cell = cells.at(0, bands.begin(band) * cells_a_row);
+         cell < cells.at(0, end); ++cell)
+      cell_region[cell] += cell_region[cell] < 0 ? 0 : first;
+  }
+  out.cell_region = std::move(cell_region);
+  return out;
+}
+
 } // namespace
 
 TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                        const AdaptiveParameters& parameters)
+                        const AdaptiveParameters& parameters, unsigned int threads)
 {
-  TileSelection selection(pyramid[0], noise, parameters);
   const auto smallest = static_cast<std::size_t>(parameters.smallest_level);
-  for (std::size_t l = pyramid.size(); l-- > smallest;)
-    selection.addLevel(pyramid[l]);
-  return std::move(selection.regions);
+  const TileLevel& cells = pyramid[0];
+  const Bands bands(pyramid.back().rows);
+  std::vector<int> cell_region(cells.sums.size(), -1);
+  std::vector<TileSelection> parts(static_cast<std::size_t>(bands.count),
+                                   {cells, noise, parameters, cell_region});
+  parallelParts(bands.count, threads, [&](int band) {
+    for (std::size_t l = pyramid.size(); l-- > smallest;) {
+      const int rows = 1 << (pyramid.size() - 1 - l); // in one of the largest tiles
+      const int end = std::min(bands.begin(band + 1) * rows, pyramid[l].rows);
+      for (int row = bands.begin(band) * rows; row < end; ++row)
+        parts[static_cast<std::size_t>(band)].addRow(pyramid[l], row);
+    }
+  });
+  return joinParts(parts, bands, cells, pyramid.back().side / CELL,
+                   std::move(cell_region));
 }
 
 namespace {
 
 /// Tiles that lie side by side.
-void findNeighbours(const TileRegions& tiles, const TileLevel& cells, Regions& regions)
+void findNeighbours(const std::vector<int>& cell_region, const TileLevel& cells,
+                    Regions& regions)
 {
   const auto touch = [&](int a, int b) {
     if (a >= 0 && b >= 0 && a != b)
@@ -128,11 +160,11 @@ void findNeighbours(const TileRegions& tiles, const TileLevel& cells, Regions& r
   };
   for (int r = 0; r < cells.rows; ++r)
     for (int c = 0; c < cells.columns; ++c) {
-      const int a = tiles.cell_region[cells.at(c, r)];
+      const int a = cell_region[cells.at(c, r)];
       if (c + 1 < cells.columns)
-        touch(a, tiles.cell_region[cells.at(c + 1, r)]);
+        touch(a, cell_region[cells.at(c + 1, r)]);
       if (r + 1 < cells.rows)
-        touch(a, tiles.cell_region[cells.at(c, r + 1)]);
+        touch(a, cell_region[cells.at(c, r + 1)]);
     }
 }
 
@@ -196,10 +228,11 @@ private:
 class Agglomeration {
 public:
   Agglomeration(Regions& regions, const NoiseLaw& noise,
-                const AdaptiveParameters& parameters)
+                const AdaptiveParameters& parameters, unsigned int threads)
   : regions_(regions)
   , noise_(noise)
   , parameters_(parameters)
+  , threads_(threads)
   , limit_(parameters.merge_tolerance * parameters.merge_tolerance)
   , queue_(static_cast<float>(limit_))
   {}
@@ -207,15 +240,7 @@ public:
   /// Merges until no two neighbours are one plane. \return whether any were
   bool run()
   {
-    pairs_.clear();
-    looked_at_ = 0;
-    for (int a = 0; a < regions_.size(); ++a)
-      if (regions_.find(a) == a)
-        regions_.forEachNeighbour(a, [&](int b) {
-          if (a < b)
-            offer(a, b);
-        });
-    consider();
+    offerAll();
     bool merged = false;
     Pair next;
     while (popCurrent(next)) {
@@ -232,6 +257,30 @@ private:
     int tiles; ///< of both: grows with every merge
     float cost;
   };
+
+  /// Offers all pairs of neighbours, as if one after the other.
+  void offerAll()
+  {
+    pairs_.clear();
+    for (int a = 0; a < regions_.size(); ++a)
+      if (regions_.find(a) == a)
+        regions_.forEachNeighbour(a, [&](int b) {
+          if (a < b)
+            pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
+        });
+    const auto batches = static_cast<int>((pairs_.size() + AT_ONCE - 1) / AT_ONCE);
+    parallelParts(batches, threads_, [&](int batch) {
+      Batch joint;
+      const std::size_t first = static_cast<std::size_t>(batch) * AT_ONCE;
+      const std::size_t last = std::min(first + AT_ONCE, pairs_.size());
+      for (std::size_t k = first; k < last; ++k)
+        joint.sums[k - first] =
+            regions_.sums(pairs_[k].a) + regions_.sums(pairs_[k].b);
+      price(joint, first, last);
+    });
+    looked_at_ = 0;
+    queueNew();
+  }
 
   /// The most alike pair as things stand. Those above it that have grown since they were
   /// looked at are looked at again, as many at once as there are.
@@ -261,50 +310,67 @@ private:
   {
     if (pairs_.size() - looked_at_ == AT_ONCE)
       consider();
-    joint_[pairs_.size() - looked_at_] = regions_.sums(a) + regions_.sums(b);
+    new_.sums[pairs_.size() - looked_at_] = regions_.sums(a) + regions_.sums(b);
     pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
   }
 
   /// Queues the new pairs that may be one plane.
   void consider()
   {
-    fitPlanes(joint_.data(), pairs_.size() - looked_at_, planes_.data());
-    for (const FittedPlane* plane = planes_.data(); looked_at_ < pairs_.size();
-         ++looked_at_, ++plane) {
-      Pair& pair = pairs_[looked_at_];
-      const double cost = dissimilarity(regions_.plane(pair.a), regions_.plane(pair.b),
-                                        *plane, noise_, parameters_);
-      pair.cost = static_cast<float>(cost);
-      if (cost >= 0 && cost <= limit_)
-        queue_.push(pair.cost, static_cast<std::uint32_t>(looked_at_));
-    }
+    price(new_, looked_at_, pairs_.size());
+    queueNew();
   }
 
   static constexpr std::size_t AT_ONCE = 64; ///< pairs that stay in the nearest cache
 
+  /// Pairs' sums, and the planes of both.
+  struct Batch {
+    std::array<TileSums, AT_ONCE> sums;
+    std::array<FittedPlane, AT_ONCE> planes;
+  };
+
+  void price(Batch& joint, std::size_t first, std::size_t last)
+  {
+    fitPlanes(joint.sums.data(), last - first, joint.planes.data());
+    for (std::size_t k = first; k < last; ++k) {
+      Pair& pair = pairs_[k];
+      pair.cost = static_cast<float>(
+          dissimilarity(regions_.plane(pair.a), regions_.plane(pair.b),
+                        joint.planes[k - first], noise_, parameters_));
+    }
+  }
+
+  void queueNew()
+  {
+    for (; looked_at_ < pairs_.size(); ++looked_at_)
+      if (const float cost = pairs_[looked_at_].cost; cost >= 0 && cost <= limit_)
+        queue_.push(cost, static_cast<std::uint32_t>(looked_at_));
+  }
+
   Regions& regions_;
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
+  unsigned int threads_;
   double limit_;
   CostQueue queue_;
-  std::vector<Pair> pairs_;             ///< in the order in which they were offered
-  std::size_t looked_at_ = 0;           ///< so many of them, the first
-  std::array<TileSums, AT_ONCE> joint_; ///< of the others
-  std::array<FittedPlane, AT_ONCE> planes_;
+  std::vector<Pair> pairs_;   ///< in the order in which they were offered
+  std::size_t looked_at_ = 0; ///< so many of them, the first
+  Batch new_;                 ///< the others
 };
 
 } // namespace
 
-TileRegions mergeTouching(const TileRegions& tiles,
-                          const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                          const AdaptiveParameters& parameters)
+TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyramid,
+                          const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                          unsigned int threads)
 {
-  Regions regions(tiles);
-  findNeighbours(tiles, pyramid[0], regions);
-  Agglomeration agglomeration(regions, noise, parameters);
+  std::vector<int> cell_region = std::move(tiles.cell_region);
+  Regions regions(std::move(tiles));
+  findNeighbours(cell_region, pyramid[0], regions);
+  Agglomeration agglomeration(regions, noise, parameters, threads);
   while (agglomeration.run()) // what was too different may fit what has grown
     ;
-  return collect(regions, tiles.cell_region, 0.5 * parameters.min_points);
+  return collect(regions, std::move(cell_region), 0.5 * parameters.min_points);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pcl_mrf_planes::adaptive {
@@ -13,13 +14,13 @@ namespace pcl_mrf_planes::adaptive {
 /// Regions that merge: a union-find with the pooled sums of each set.
 class Regions {
 public:
-  explicit Regions(const TileRegions& tiles)
-  : sums_(tiles.sums)
-  , planes_(tiles.planes)
-  , parent_(tiles.sums.size())
-  , tiles_(tiles.sums.size(), 1)
-  , lists_(tiles.sums.size())
-  , marks_(tiles.sums.size(), 0)
+  explicit Regions(FittedRegions tiles)
+  : sums_(std::move(tiles.sums))
+  , planes_(std::move(tiles.planes))
+  , parent_(sums_.size())
+  , tiles_(sums_.size(), 1)
+  , lists_(sums_.size())
+  , marks_(sums_.size(), 0)
   {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
@@ -144,7 +145,6 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
                      const AdaptiveParameters& p);
 
 /// The sets that hold at least so many points, numbered in order.
-TileRegions collect(Regions& regions, const std::vector<int>& cell_region,
-                    double least);
+TileRegions collect(Regions& regions, std::vector<int> cell_region, double least);
 
 } // namespace pcl_mrf_planes::adaptive
