@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/candidate_field.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <array>
@@ -70,28 +71,48 @@ struct Place {
 /// Passes over the image, with the messages that every point has received.
 class Passes {
 public:
-  explicit Passes(const CandidateField& field)
+  Passes(const CandidateField& field, unsigned int threads)
   : f_(field)
+  , threads_(threads)
   , blocks_(field.blocks)
   , received_(field.data.size())
   , places_(field.active.size())
   , band_(static_cast<std::size_t>(field.blocks.rows) + 1, 0)
   {
-    for (std::size_t a = 0; a < places_.size(); ++a)
-      settleIn(a);
+    for (const std::size_t block : field.active)
+      ++band_[block / static_cast<std::size_t>(blocks_.columns) + 1];
     for (std::size_t row = 1; row < band_.size(); ++row)
       band_[row] += band_[row - 1];
+    parallelRows(blocks_.rows, threads, [&](int row) {
+      for (std::size_t a = firstOf(row); a < firstOf(row + 1); ++a)
+        settleIn(a, row);
+    });
+    while (middle_ < blocks_.rows && 2 * firstOf(middle_) < places_.size())
+      ++middle_;
   }
 
-  /// One pass: messages within each row, and on to the next row.
-  void run(bool downwards)
+  /// One pass: a front that goes down the image and one that goes up, each with messages
+  /// within every row and on to the next. They are in different halves at any time; what
+  /// one hands over to the other half waits until the other has left it.
+  void run()
   {
-    for (int k = 0; k < f_.height; ++k) {
-      const int y = downwards ? k : f_.height - 1 - k;
-      const std::size_t band = static_cast<std::size_t>(y) / SIDE;
-      for (std::size_t a = band_[band]; a < band_[band + 1]; ++a)
-        sendFrom(a, static_cast<std::size_t>(y) % SIDE, downwards ? BELOW : ABOVE);
+    const int middle = std::min(middle_ * static_cast<int>(SIDE), f_.height);
+    parallelParts(2, threads_, [&](int half) {
+      if (half == 0)
+        goDown(0, middle);
+      else
+        goUp(middle, f_.height);
+    });
+    if (middle_ > 0 && middle_ < blocks_.rows) {
+      cross(middle_ - 1, LAST, BELOW);
+      cross(middle_, 0, ABOVE);
     }
+    parallelParts(2, threads_, [&](int half) {
+      if (half == 0)
+        goUp(0, middle);
+      else
+        goDown(middle, f_.height);
+    });
   }
 
   /// Data costs plus all messages of a row of an active block.
@@ -107,14 +128,45 @@ public:
   }
 
 private:
+  /// Number of the first active block of a row of blocks, or of those after it.
+  std::size_t firstOf(int row) const { return band_[static_cast<std::size_t>(row)]; }
+
+  void goDown(int top, int bottom)
+  {
+    for (int y = top; y < bottom; ++y)
+      sendFromRow(y, BELOW, y + 1 < bottom);
+  }
+
+  void goUp(int top, int bottom)
+  {
+    for (int y = bottom - 1; y >= top; --y)
+      sendFromRow(y, ABOVE, y > top);
+  }
+
+  void sendFromRow(int y, Side next_row, bool hand_over)
+  {
+    const int row = y / static_cast<int>(SIDE);
+    for (std::size_t a = firstOf(row); a < firstOf(row + 1); ++a)
+      sendFrom(a, static_cast<std::size_t>(y) % SIDE, next_row, hand_over);
+  }
+
+  /// Messages from the outermost row of points of a row of blocks to the next block.
+  void cross(int row_of_blocks, std::size_t row, Side to)
+  {
+    Beliefs total;
+    for (std::size_t a = firstOf(row_of_blocks); a < firstOf(row_of_blocks + 1); ++a) {
+      const Place& place = places_[a];
+      beliefs(place.first + row * place.count, place.count, total);
+      sendToRow(place, f_.weight[a], row, to, total, place.count);
+    }
+  }
+
   /// Finds the neighbours of a block, and what the settled ones among them say.
-  void settleIn(std::size_t a)
+  void settleIn(std::size_t a, int row)
   {
     const std::size_t block = f_.active[a];
     const int column =
         static_cast<int>(block % static_cast<std::size_t>(blocks_.columns));
-    const int row = static_cast<int>(block / static_cast<std::size_t>(blocks_.columns));
-    ++band_[static_cast<std::size_t>(row) + 1];
     Place& place = places_[a];
     place.count = blocks_.count[block];
     place.first = f_.first[a];
@@ -183,19 +235,19 @@ private:
   }
 
   /// Few labels are the rule: their loops are unrolled.
-  void sendFrom(std::size_t a, std::size_t row, Side next_row)
+  void sendFrom(std::size_t a, std::size_t row, Side next_row, bool hand_over)
   {
     const std::size_t count = places_[a].count;
     if (count == 2)
-      send(a, row, next_row, std::integral_constant<std::size_t, 2>());
+      send(a, row, next_row, hand_over, std::integral_constant<std::size_t, 2>());
     else if (count == 3)
-      send(a, row, next_row, std::integral_constant<std::size_t, 3>());
+      send(a, row, next_row, hand_over, std::integral_constant<std::size_t, 3>());
     else
-      send(a, row, next_row, count);
+      send(a, row, next_row, hand_over, count);
   }
 
   template <class Count>
-  void send(std::size_t a, std::size_t row, Side next_row, Count count)
+  void send(std::size_t a, std::size_t row, Side next_row, bool hand_over, Count count)
   {
     const Place& place = places_[a];
     const std::size_t start = place.first + row * count;
@@ -211,7 +263,8 @@ private:
     beliefs(start, count, total);
     messages(total, count, start, RIGHT, right, rightward);
     messages(total, count, start, LEFT, left, leftward);
-    sendToRow(place, weight, row, next_row, total, count);
+    if (hand_over)
+      sendToRow(place, weight, row, next_row, total, count);
 
     for (std::size_t s = 0; s < count; ++s) {
       auto& from = received_[start + s].from;
@@ -264,10 +317,12 @@ private:
   }
 
   const CandidateField& f_;
+  unsigned int threads_;
   const CandidateBlocks& blocks_;
   std::vector<Messages> received_;
   std::vector<Place> places_;     ///< of the active blocks
   std::vector<std::size_t> band_; ///< first active block of each row of blocks
+  int middle_ = 0; ///< row of blocks that half of the active ones lie above
 };
 
 /// Labels of a row of an active block: those of the least beliefs.
@@ -297,19 +352,19 @@ public:
   , width_(static_cast<std::size_t>(field.width))
   {}
 
-  void write()
+  /// The labels of a row of blocks.
+  void writeRow(int row)
   {
-    for (int row = 0; row < f_.blocks.rows; ++row)
-      for (int column = 0; column < f_.blocks.columns;) {
-        if (const std::size_t block = f_.blocks.at(column, row); isActive(block)) {
-          writeActive(block, column, row);
-          ++column;
-          continue;
-        }
-        const int end = endOfSettled(column, row);
-        writeSettled(column, end, row);
-        column = end;
+    for (int column = 0; column < f_.blocks.columns;) {
+      if (const std::size_t block = f_.blocks.at(column, row); isActive(block)) {
+        writeActive(block, column, row);
+        ++column;
+        continue;
       }
+      const int end = endOfSettled(column, row);
+      writeSettled(column, end, row);
+      column = end;
+    }
   }
 
   std::vector<std::uint16_t> labels;
@@ -375,15 +430,14 @@ private:
 } // namespace
 
 std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
-                                            const OrganizedPoints& points, int passes)
+                                            const OrganizedPoints& points, int passes,
+                                            unsigned int threads)
 {
-  Passes propagation(field);
-  for (int t = 0; t < passes; ++t) {
-    propagation.run(true);
-    propagation.run(false);
-  }
+  Passes propagation(field, threads);
+  for (int t = 0; t < passes; ++t)
+    propagation.run();
   LabelWriter writer(field, points, propagation);
-  writer.write();
+  parallelRows(field.blocks.rows, threads, [&](int row) { writer.writeRow(row); });
   return std::move(writer.labels);
 }
 
