@@ -14,11 +14,13 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<Plane>& planes,
                                        const LabelRuns& image,
                                        const std::vector<ScatterMatrix>& scatter,
-                                       int min_points, double min_area);
+                                       int min_points, double min_area,
+                                       unsigned int threads);
 
 /// Writes the label of its region, from 1, or 0 where there is none, over every run. Points
 /// of no run are left as they are.
 void paintRegions(const LabelRuns& image, const std::vector<PlaneRegion>& regions,
-                  std::size_t planes, std::vector<std::uint16_t>& labels);
+                  std::size_t planes, std::vector<std::uint16_t>& labels,
+                  unsigned int threads);
 
 } // namespace pcl_mrf_planes

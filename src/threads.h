@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
+#include <thread>
+#include <vector>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -76,6 +79,63 @@ void parallelRows(int rows, unsigned int threads, const Work& work)
   parallelParts(bands.count, threads, [&](int band) {
     for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
       work(row);
+  });
+}
+
+/// How far each strip of an image has come.
+class StripProgress {
+public:
+  explicit StripProgress(int strips)
+  : done_(static_cast<std::size_t>(strips))
+  {}
+
+  /// Waits until a strip has done more than so many steps.
+  void await(int strip, int steps) const
+  {
+    constexpr int PATIENCE = 1000; // looks, before another thread may have the core
+    for (int looks = 0; done(strip).load(std::memory_order_acquire) <= steps; ++looks)
+      if (looks > PATIENCE)
+        std::this_thread::yield();
+  }
+  void reach(int strip, int steps)
+  {
+    done_[static_cast<std::size_t>(strip)].steps.store(steps, std::memory_order_release);
+  }
+
+private:
+  /// On a cache line of its own.
+  struct alignas(64) Counter {
+    std::atomic<int> steps{0};
+  };
+
+  const std::atomic<int>& done(int strip) const
+  {
+    return done_[static_cast<std::size_t>(strip)].steps;
+  }
+
+  std::vector<Counter> done_;
+};
+
+/// Calls work(strip, step) for every step of every strip, as if step by step and in each of
+/// them strip by strip: a strip takes a step when the one before it has taken it. What a
+/// strip reads of the others must stay as it is after their steps up to that.
+template <typename Work>
+void staggeredSteps(int strips, int steps, unsigned int threads, const Work& work)
+{
+  StripProgress progress(strips);
+  parallelParts(strips, threads, [&](int strip) {
+    try {
+      for (int step = 0; step < steps; ++step) {
+        if (strip > 0)
+          progress.await(strip - 1, step);
+        work(strip, step);
+        progress.reach(strip, step + 1);
+      }
+    }
+    catch (...) { // nobody waits for what will not come
+      progress.reach(strip, steps);
+      throw;
+    }
   });
 }
 

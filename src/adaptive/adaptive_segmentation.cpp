@@ -77,7 +77,7 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   // A. Planar surface detection, with tiles as large as the surfaces allow
   std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters, threads);
   const NoiseLaw noise = parameters.estimate_noise
-                             ? estimateNoise(pyramid, parameters)
+                             ? estimateNoise(pyramid, parameters, threads)
                              : statedNoise(all_parameters.noise, pyramid, parameters);
   const double correlated = pointsPerIndependentOne(noise);
   parameters.min_points = static_cast<int>(parameters.min_points * correlated);
@@ -172,10 +172,12 @@ PlaneSegmentation adaptive::segmentObserved(const OrganizedPoints& points,
   const LabelRuns runs = planeRuns(found.image.runs);
   result.regions = gatherRegions(points, planes, runs,
                                  {found.fitted.sums.begin(), found.fitted.sums.end()},
-                                 parameters.min_inliers, parameters.min_area);
+                                 parameters.min_inliers, parameters.min_area,
+                                 parameters.number_of_threads);
   result.block_noise = std::move(found.block_noise);
   result.labels = std::move(found.image.labels);
-  paintRegions(runs, result.regions, planes.size(), result.labels);
+  paintRegions(runs, result.regions, planes.size(), result.labels,
+               parameters.number_of_threads);
   timer.finish("regions");
   report.count(points, result.regions);
   return result;

@@ -5,6 +5,7 @@
 #include "threads.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -84,6 +85,13 @@ public:
   , part_(part)
   {}
 
+  /// For so many blocks; pages that are not used cost nothing.
+  void reserve(std::size_t blocks)
+  {
+    part_.weight.reserve(blocks);
+    part_.data.reserve(blocks * static_cast<std::size_t>(SIDE));
+  }
+
   void addRow(int row)
   {
     for (int column = 0; column < field_.blocks.columns; ++column)
@@ -137,8 +145,17 @@ private:
 };
 
 /// Puts the parts of a field together, in their order.
-void joinParts(const std::vector<FieldPart>& parts, CandidateField& field)
+void joinParts(std::vector<FieldPart>& parts, CandidateField& field)
 {
+  if (parts.size() == 1) {
+    for (std::size_t a = 0; a < parts[0].active.size(); ++a)
+      field.number[parts[0].active[a]] = a;
+    field.active = std::move(parts[0].active);
+    field.first = std::move(parts[0].first);
+    field.data = std::move(parts[0].data);
+    field.weight = std::move(parts[0].weight);
+    return;
+  }
   for (const FieldPart& part : parts) {
     for (std::size_t a = 0; a < part.active.size(); ++a) {
       field.number[part.active[a]] = field.active.size() + a;
@@ -168,10 +185,11 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
                                 parameters.support_reach, threads);
   field.number.assign(field.blocks.count.size(), CandidateField::SETTLED);
   const FieldSources sources(points, regions, pyramid, noise, parameters, threads);
-  const Bands bands(field.blocks.rows);
+  const Bands bands(field.blocks.rows, threadCount(threads) > 1 ? 16 : 1);
   std::vector<FieldPart> parts(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {
     FieldBuilder builder(sources, field, parts[static_cast<std::size_t>(band)]);
+    builder.reserve(field.blocks.at(0, bands.begin(band + 1) - bands.begin(band)));
     for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
       builder.addRow(row);
   });

@@ -93,12 +93,11 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
 
 /// Min-sum loopy belief propagation; label per site, 0 = none.
 ///
-/// In each of the passes two fronts cross the image, one downwards and one upwards, a row at a
-/// time: messages to the next row are used at once, so they cross the image in one pass;
-/// those within a row move by one point a front. The fronts move at the same time, each in its
-/// half of the work until both are through with it. A Potts message needs the least belief
-/// only: O(sites * labels of a block) an iteration. Settled blocks send what they are sure of,
-/// once.
+/// Each of the passes goes down the image and up again, a row at a time: messages to the next
+/// row are used at once, so they cross the image in one pass; those within a row move by
+/// one point a pass. A Potts message needs the least belief only: O(sites * labels of a
+/// block) an iteration. Settled blocks send what they are sure of, once. Threads share the
+/// rows, each follows the one to its left.
 std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
                                             const OrganizedPoints& points, int passes,
                                             unsigned int threads = 1);

@@ -87,31 +87,17 @@ public:
       for (std::size_t a = firstOf(row); a < firstOf(row + 1); ++a)
         settleIn(a, row);
     });
-    while (middle_ < blocks_.rows && 2 * firstOf(middle_) < places_.size())
-      ++middle_;
+    splitRows();
   }
 
-  /// One pass: a front that goes down the image and one that goes up, each with messages
-  /// within every row and on to the next. They are in different halves at any time; what
-  /// one hands over to the other half waits until the other has left it.
-  void run()
+  /// One pass: messages within each row, and on to the next row.
+  void run(bool downwards)
   {
-    const int middle = std::min(middle_ * static_cast<int>(SIDE), f_.height);
-    parallelParts(2, threads_, [&](int half) {
-      if (half == 0)
-        goDown(0, middle);
-      else
-        goUp(middle, f_.height);
-    });
-    if (middle_ > 0 && middle_ < blocks_.rows) {
-      cross(middle_ - 1, LAST, BELOW);
-      cross(middle_, 0, ABOVE);
-    }
-    parallelParts(2, threads_, [&](int half) {
-      if (half == 0)
-        goUp(0, middle);
-      else
-        goDown(middle, f_.height);
+    staggeredSteps(strips_, f_.height, threads_, [&](int strip, int step) {
+      const int y = downwards ? step : f_.height - 1 - step;
+      const int row = y / static_cast<int>(SIDE);
+      for (std::size_t a = firstOf(row, strip); a < firstOf(row, strip + 1); ++a)
+        sendFrom(a, static_cast<std::size_t>(y) % SIDE, downwards ? BELOW : ABOVE);
     });
   }
 
@@ -130,34 +116,36 @@ public:
 private:
   /// Number of the first active block of a row of blocks, or of those after it.
   std::size_t firstOf(int row) const { return band_[static_cast<std::size_t>(row)]; }
-
-  void goDown(int top, int bottom)
+  /// The same of a strip of that row.
+  std::size_t firstOf(int row, int strip) const
   {
-    for (int y = top; y < bottom; ++y)
-      sendFromRow(y, BELOW, y + 1 < bottom);
+    return first_in_strip_[static_cast<std::size_t>(row * (strips_ + 1) + strip)];
   }
 
-  void goUp(int top, int bottom)
+  /// Upright strips with about as many active blocks each, one for each thread.
+  void splitRows()
   {
-    for (int y = bottom - 1; y >= top; --y)
-      sendFromRow(y, ABOVE, y > top);
-  }
-
-  void sendFromRow(int y, Side next_row, bool hand_over)
-  {
-    const int row = y / static_cast<int>(SIDE);
-    for (std::size_t a = firstOf(row); a < firstOf(row + 1); ++a)
-      sendFrom(a, static_cast<std::size_t>(y) % SIDE, next_row, hand_over);
-  }
-
-  /// Messages from the outermost row of points of a row of blocks to the next block.
-  void cross(int row_of_blocks, std::size_t row, Side to)
-  {
-    Beliefs total;
-    for (std::size_t a = firstOf(row_of_blocks); a < firstOf(row_of_blocks + 1); ++a) {
-      const Place& place = places_[a];
-      beliefs(place.first + row * place.count, place.count, total);
-      sendToRow(place, f_.weight[a], row, to, total, place.count);
+    const auto columns = static_cast<std::size_t>(blocks_.columns);
+    std::vector<std::size_t> left_of(columns + 1, 0);
+    for (const std::size_t block : f_.active)
+      ++left_of[block % columns + 1];
+    for (std::size_t c = 0; c < columns; ++c)
+      left_of[c + 1] += left_of[c];
+    strips_ = Bands(blocks_.columns, threadCount(threads_)).count;
+    std::vector<std::size_t> border;
+    for (int strip = 0; strip < strips_; ++strip) {
+      const std::size_t wanted = f_.active.size() * static_cast<std::size_t>(strip) /
+                                 static_cast<std::size_t>(strips_);
+      border.push_back(static_cast<std::size_t>(
+          std::lower_bound(left_of.begin(), left_of.end(), wanted) - left_of.begin()));
+    }
+    for (std::size_t row = 0; row + 1 < band_.size(); ++row) {
+      const auto from = f_.active.begin() + static_cast<std::ptrdiff_t>(band_[row]);
+      const auto to = f_.active.begin() + static_cast<std::ptrdiff_t>(band_[row + 1]);
+      for (const std::size_t column : border)
+        first_in_strip_.push_back(static_cast<std::size_t>(
+            std::lower_bound(from, to, row * columns + column) - f_.active.begin()));
+      first_in_strip_.push_back(band_[row + 1]);
     }
   }
 
@@ -235,19 +223,19 @@ private:
   }
 
   /// Few labels are the rule: their loops are unrolled.
-  void sendFrom(std::size_t a, std::size_t row, Side next_row, bool hand_over)
+  void sendFrom(std::size_t a, std::size_t row, Side next_row)
   {
     const std::size_t count = places_[a].count;
     if (count == 2)
-      send(a, row, next_row, hand_over, std::integral_constant<std::size_t, 2>());
+      send(a, row, next_row, std::integral_constant<std::size_t, 2>());
     else if (count == 3)
-      send(a, row, next_row, hand_over, std::integral_constant<std::size_t, 3>());
+      send(a, row, next_row, std::integral_constant<std::size_t, 3>());
     else
-      send(a, row, next_row, hand_over, count);
+      send(a, row, next_row, count);
   }
 
   template <class Count>
-  void send(std::size_t a, std::size_t row, Side next_row, bool hand_over, Count count)
+  void send(std::size_t a, std::size_t row, Side next_row, Count count)
   {
     const Place& place = places_[a];
     const std::size_t start = place.first + row * count;
@@ -263,8 +251,7 @@ private:
     beliefs(start, count, total);
     messages(total, count, start, RIGHT, right, rightward);
     messages(total, count, start, LEFT, left, leftward);
-    if (hand_over)
-      sendToRow(place, weight, row, next_row, total, count);
+    sendToRow(place, weight, row, next_row, total, count);
 
     for (std::size_t s = 0; s < count; ++s) {
       auto& from = received_[start + s].from;
@@ -322,7 +309,8 @@ private:
   std::vector<Messages> received_;
   std::vector<Place> places_;     ///< of the active blocks
   std::vector<std::size_t> band_; ///< first active block of each row of blocks
-  int middle_ = 0; ///< row of blocks that half of the active ones lie above
+  int strips_ = 1;
+  std::vector<std::size_t> first_in_strip_; ///< by row of blocks and strip
 };
 
 /// Labels of a row of an active block: those of the least beliefs.
@@ -435,7 +423,8 @@ std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
 {
   Passes propagation(field, threads);
   for (int t = 0; t < passes; ++t)
-    propagation.run();
+    for (const bool downwards : {true, false})
+      propagation.run(downwards);
   LabelWriter writer(field, points, propagation);
   parallelRows(field.blocks.rows, threads, [&](int row) { writer.writeRow(row); });
   return std::move(writer.labels);

@@ -28,22 +28,20 @@ public:
       scales_.push_back(labelScale(plane, noise, parameters));
   }
 
-  /// One front goes down and one up, in different halves of the image at any time.
+  /// Down the image from left to right and up again from right to left, in as many upright
+  /// strips as there are threads: as if there were one.
   void sweep(unsigned int threads)
   {
-    const int middle = cells_.rows / 2;
-    for (const bool down_is_below : {false, true}) {
-      seeAcross(middle);
-      parallelParts(2, threads, [&](int half) {
-        const bool is_below = half == 1;
-        const int top = is_below ? middle : 0;
-        const int bottom = is_below ? cells_.rows : middle;
-        if (is_below == down_is_below)
-          sweepDown(top, bottom);
-        else
-          sweepUp(top, bottom);
-      });
-    }
+    const Bands strips(cells_.columns, threadCount(threads));
+    staggeredSteps(strips.count, cells_.rows, threads, [&](int strip, int row) {
+      for (int c = strips.begin(strip); c < strips.begin(strip + 1); ++c)
+        visit(c, row);
+    });
+    staggeredSteps(strips.count, cells_.rows, threads, [&](int step_strip, int step) {
+      const int strip = strips.count - 1 - step_strip;
+      for (int c = strips.begin(strip + 1) - 1; c >= strips.begin(strip); --c)
+        visit(c, cells_.rows - 1 - step);
+    });
   }
 
   const std::vector<int>& labels() const { return labels_; }
@@ -51,33 +49,6 @@ public:
 private:
   static constexpr std::size_t SIDES = 4;
   using Neighbours = std::array<int, SIDES>;
-
-  /// Each half sees the other's nearest row as it is now.
-  void seeAcross(int middle)
-  {
-    middle_ = middle;
-    const auto copy = [&](int row, std::vector<int>& to) {
-      if (row >= 0 && row < cells_.rows)
-        to.assign(labels_.begin() + static_cast<std::ptrdiff_t>(cells_.at(0, row)),
-                  labels_.begin() + static_cast<std::ptrdiff_t>(cells_.at(0, row + 1)));
-    };
-    copy(middle - 1, last_above_);
-    copy(middle, first_below_);
-  }
-
-  void sweepDown(int top, int bottom)
-  {
-    for (int r = top; r < bottom; ++r)
-      for (int c = 0; c < cells_.columns; ++c)
-        visit(c, r);
-  }
-
-  void sweepUp(int top, int bottom)
-  {
-    for (int r = bottom - 1; r >= top; --r)
-      for (int c = cells_.columns - 1; c >= 0; --c)
-        visit(c, r);
-  }
 
   /// Gives a cell the label of least energy among its own and its neighbours'.
   void visit(int column, int row)
@@ -109,16 +80,10 @@ private:
   Neighbours neighbours(int column, int row) const
   {
     const auto label = [&](int c, int r) { return labels_[cells_.at(c, r)]; };
-    const auto c = static_cast<std::size_t>(column);
-    const auto above = [&] {
-      return row == middle_ ? last_above_[c] : label(column, row - 1);
-    };
-    const auto below = [&] {
-      return row + 1 == middle_ ? first_below_[c] : label(column, row + 1);
-    };
-    return {column > 0 ? label(column - 1, row) : OUTSIDE, row > 0 ? above() : OUTSIDE,
+    return {column > 0 ? label(column - 1, row) : OUTSIDE,
+            row > 0 ? label(column, row - 1) : OUTSIDE,
             column + 1 < cells_.columns ? label(column + 1, row) : OUTSIDE,
-            row + 1 < cells_.rows ? below() : OUTSIDE};
+            row + 1 < cells_.rows ? label(column, row + 1) : OUTSIDE};
   }
 
   double changes(const Neighbours& beside, int label) const
@@ -143,9 +108,6 @@ private:
   double change_; ///< price of a change along a side of a cell
   std::vector<LabelScale> scales_;
   std::vector<int> labels_;
-  int middle_ = 0;               ///< first row of the lower half
-  std::vector<int> last_above_;  ///< labels of the row above it, as the lower half sees it
-  std::vector<int> first_below_; ///< its own labels, as the upper half sees them
 };
 
 /// Sums of the cells of each label, band by band of the image.

@@ -9,10 +9,8 @@ namespace pcl_mrf_planes::adaptive {
  * planes are fitted again to their cells, and those that are none are dropped.
  *
  * Iterated conditional modes (Besag, "On the Statistical Analysis of Dirty Pictures",
- * 1986), in two fronts that cross the whole image, one downwards and one upwards: a plane may
- * take cell after cell as far as it fits them. The fronts move at the same time, each in its
- * half of the image until both are through with it. O(cells); cells between others of their
- * own label cost next to nothing. */
+ * 1986), down the image and up again: a plane may take cell after cell as far as it fits
+ * them. O(cells); cells between others of their own label cost next to nothing. */
 TileRegions labelCells(const TileRegions& regions, const TileLevel& cells,
                        const NoiseLaw& noise, const AdaptiveParameters& parameters,
                        unsigned int threads = 1);

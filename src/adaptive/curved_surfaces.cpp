@@ -270,7 +270,7 @@ void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
       kept.add(regions.planes[k], regions.sums[k]);
       id[k + 1] = static_cast<std::uint16_t>(kept.planes.size());
     }
-  image.renumber(id);
+  image.renumber(id, threads);
   regions = std::move(kept);
 }
 

@@ -136,40 +136,63 @@ double meanVariance(const Quarters& planes, double known_growth, const NoiseLaw&
   return sum / static_cast<double>(planes.size());
 }
 
-/// Growth of the rms distance from a tile's quarters to the tile: one ratio for each tile
-/// whose quarters are all within the noise.
-std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
-                                 double known_growth, const NoiseLaw& noise,
-                                 const AdaptiveParameters& parameters)
+/// A row of tiles, of which every so many-th counts.
+struct TileRow {
+  int number, step;
+};
+
+/// One ratio for each tile of a row whose quarters are all within the noise: the rms distance
+/// of the tile over that of its quarters.
+void addGrowthRatios(const TileLevel& level, const TileLevel& below, TileRow row,
+                     double known_growth, const NoiseLaw& noise,
+                     const AdaptiveParameters& parameters, std::vector<double>& ratios)
 {
-  // The smallest tiles have no planes yet; some of them tell enough.
-  const int step = below.planes.empty() ? 3 : 1;
-  std::vector<double> ratios;
-  for (int r = 0; r < level.rows; r += step)
-    for (int c = 0; c < level.columns; c += step) {
-      const FittedPlane& parent = level.planes[level.at(c, r)];
-      if (parent.n < 4 || 2 * r + 1 >= below.rows || 2 * c + 1 >= below.columns)
+  for (int c = 0; c < level.columns; c += row.step) {
+      const FittedPlane& parent = level.planes[level.at(c, row.number)];
+      if (parent.n < 4 || 2 * row.number + 1 >= below.rows || 2 * c + 1 >= below.columns)
         continue;
       const double variance =
-          meanVariance(quartersOf(below, c, r, parameters), known_growth, noise);
+          meanVariance(quartersOf(below, c, row.number, parameters), known_growth, noise);
       if (variance >= 0)
         ratios.push_back(
             unbiasedRms(parent) /
             std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
     }
+}
+
+/// Growth of the rms distance from tiles' quarters to the tiles.
+std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
+                                 double known_growth, const NoiseLaw& noise,
+                                 const AdaptiveParameters& parameters,
+                                 unsigned int threads)
+{
+  // The smallest tiles have no planes yet; some of them tell enough.
+  const int step = below.planes.empty() ? 3 : 1;
+  const Bands bands((level.rows + step - 1) / step, 4);
+  std::vector<std::vector<double>> parts(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<double>& ratios = parts[static_cast<std::size_t>(band)];
+    const int end = std::min(level.rows, step * bands.begin(band + 1));
+    for (int r = step * bands.begin(band); r < end; r += step)
+      addGrowthRatios(level, below, {r, step}, known_growth, noise, parameters, ratios);
+  });
+  std::vector<double> ratios;
+  for (const std::vector<double>& part : parts)
+    ratios.insert(ratios.end(), part.begin(), part.end());
   return ratios;
 }
 
 /// Growth of sigma with the level, 1 at the base level, and for planes beyond all levels.
 void estimateGrowth(const std::vector<TileLevel>& pyramid,
-                    const AdaptiveParameters& parameters, NoiseLaw& noise)
+                    const AdaptiveParameters& parameters, unsigned int threads,
+                    NoiseLaw& noise)
 {
   constexpr std::size_t FEWEST = 12; // ratios for a percentile
   std::vector<double> step(pyramid.size(), 1.0);
   double cumulated = 1;
   for (std::size_t l = 1; l < pyramid.size(); ++l) {
     std::vector<double> ratios =
-        growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise, parameters);
+        growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise, parameters, threads);
     if (ratios.size() >= FEWEST)
       step[l] = std::clamp(percentile(ratios, parameters.growth_percentile), 1.0,
                            parameters.max_growth);
@@ -290,7 +313,7 @@ void poolNoise(const TileLevel& below, TileLevel& level, unsigned int threads)
 } // namespace
 
 NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
-                       const AdaptiveParameters& parameters)
+                       const AdaptiveParameters& parameters, unsigned int threads)
 {
   constexpr std::size_t ENOUGH = 2000; // samples
   NoiseLaw noise;
@@ -303,7 +326,7 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
     if (const FittedPlane& p = planes[i]; p.n > 3)
       samples.push_back({p.centroid.norm(), unbiasedRms(p)});
   fitDepthLaw(std::move(samples), parameters.noise_percentile, noise);
-  estimateGrowth(pyramid, parameters, noise);
+  estimateGrowth(pyramid, parameters, threads, noise);
   return noise;
 }
 

@@ -105,25 +105,33 @@ private:
   std::vector<FittedPlane> planes_;
 };
 
-/// Numbers the regions of the parts one after the other.
-TileRegions joinParts(const std::vector<TileSelection>& parts, const Bands& bands,
-                      const TileLevel& cells, int cells_a_row,
-                      std::vector<int> cell_region)
-{
-  TileRegions out;
-  for (int band = 0; band < bands.count; ++band) {
-    const FittedRegions& part = parts[static_cast<std::size_t>(band)].regions;
-    const int first = static_cast<int>(out.planes.size());
-    out.planes.insert(out.planes.end(), part.planes.begin(), part.planes.end());
-    out.sums.insert(out.sums.end(), part.sums.begin(), part.sums.end());
-    const int end = std::min(bands.begin(band + 1) * cells_a_row, cells.rows);
-    for (std::size_t cell = cells.at(0, bands.begin(band) * cells_a_row);
-         cell < cells.at(0, end); ++cell)
-      cell_region[cell] += cell_region[cell] < 0 ? 0 : first;
+/// Where the tiles of the levels lie among those that one part of the image selected.
+using LevelStarts = std::vector<std::size_t>;
+
+/// Numbers the tiles of all parts anew: the largest first, those of one level part by part.
+class TileNumbering {
+public:
+  TileNumbering(std::vector<TileSelection>& parts, const std::vector<LevelStarts>& starts)
+  : number_(parts.size())
+  {
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      number_[k].resize(parts[k].regions.planes.size());
+    for (std::size_t level = 0; level + 1 < starts[0].size(); ++level)
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        for (std::size_t i = starts[k][level]; i < starts[k][level + 1]; ++i)
+          number_[k][i] = count_++;
   }
-  out.cell_region = std::move(cell_region);
-  return out;
-}
+
+  std::size_t count() const { return static_cast<std::size_t>(count_); }
+  int operator()(std::size_t part, std::size_t tile) const
+  {
+    return number_[part][tile];
+  }
+
+private:
+  std::vector<std::vector<int>> number_;
+  int count_ = 0;
+};
 
 } // namespace
 
@@ -133,19 +141,41 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
   const auto smallest = static_cast<std::size_t>(parameters.smallest_level);
   const TileLevel& cells = pyramid[0];
   const Bands bands(pyramid.back().rows);
-  std::vector<int> cell_region(cells.sums.size(), -1);
+  TileRegions out;
+  out.cell_region.assign(cells.sums.size(), -1);
   std::vector<TileSelection> parts(static_cast<std::size_t>(bands.count),
-                                   {cells, noise, parameters, cell_region});
+                                   {cells, noise, parameters, out.cell_region});
+  std::vector<LevelStarts> starts(parts.size(), {0});
   parallelParts(bands.count, threads, [&](int band) {
+    const auto part = static_cast<std::size_t>(band);
     for (std::size_t l = pyramid.size(); l-- > smallest;) {
       const int rows = 1 << (pyramid.size() - 1 - l); // in one of the largest tiles
       const int end = std::min(bands.begin(band + 1) * rows, pyramid[l].rows);
       for (int row = bands.begin(band) * rows; row < end; ++row)
-        parts[static_cast<std::size_t>(band)].addRow(pyramid[l], row);
+        parts[part].addRow(pyramid[l], row);
+      starts[part].push_back(parts[part].regions.planes.size());
     }
   });
-  return joinParts(parts, bands, cells, pyramid.back().side / CELL,
-                   std::move(cell_region));
+
+  const TileNumbering number(parts, starts);
+  out.planes.resize(number.count());
+  out.sums.resize(number.count());
+  const int cell_rows = pyramid.back().side / CELL;
+  parallelParts(bands.count, threads, [&](int band) {
+    const auto part = static_cast<std::size_t>(band);
+    const FittedRegions& found = parts[part].regions;
+    for (std::size_t i = 0; i < found.planes.size(); ++i) {
+      const auto id = static_cast<std::size_t>(number(part, i));
+      out.planes[id] = found.planes[i];
+      out.sums[id] = found.sums[i];
+    }
+    const int end = std::min(bands.begin(band + 1) * cell_rows, cells.rows);
+    for (std::size_t cell = cells.at(0, bands.begin(band) * cell_rows);
+         cell < cells.at(0, end); ++cell)
+      if (int& region = out.cell_region[cell]; region >= 0)
+        region = number(part, static_cast<std::size_t>(region));
+  });
+  return out;
 }
 
 namespace {

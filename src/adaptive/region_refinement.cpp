@@ -114,13 +114,18 @@ std::vector<TileSums> sumLabels(const OrganizedPoints& points, const TileLevel& 
 
 } // namespace
 
-void LabelledPoints::renumber(const std::vector<std::uint16_t>& id)
+void LabelledPoints::renumber(const std::vector<std::uint16_t>& id,
+                              unsigned int threads)
 {
-  for (LabelRun& run : runs.runs) {
-    if (id[run.label] != run.label)
-      fillRun(run, id[run.label], labels);
-    run.label = id[run.label];
-  }
+  parallelRows(static_cast<int>(runs.rows.size()) - 1, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = runs.rows[r]; k < runs.rows[r + 1]; ++k) {
+      LabelRun& run = runs.runs[k];
+      if (id[run.label] != run.label)
+        fillRun(run, id[run.label], labels);
+      run.label = id[run.label];
+    }
+  });
 }
 
 FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
@@ -142,7 +147,7 @@ FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cell
     out.add(plane, sums[k]);
     id[k] = static_cast<std::uint16_t>(out.planes.size());
   }
-  image.renumber(id);
+  image.renumber(id, threads);
   return out;
 }
 

@@ -18,7 +18,7 @@ struct LabelledPoints {
   {}
 
   /** \brief Give every label its new number, id[label]; 0 takes it away. */
-  void renumber(const std::vector<std::uint16_t>& id);
+  void renumber(const std::vector<std::uint16_t>& id, unsigned int threads = 1);
 };
 
 /** \brief After labelling: small components of a label lose it, planes are fitted again
