@@ -188,7 +188,7 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
     const double tolerance =
         BEHIND * std::sqrt(allowedVariance(joint, noise, parameters));
     if (gap.mayHidePlane(pair.a, pair.b, joint, tolerance))
-      regions.merge(a, b);
+      regions.merge(a, b, joint);
   }
   return collect(regions, std::move(parts.cell_region), 0.5 * parameters.min_points);
 }

@@ -272,9 +272,10 @@ public:
   {
     offerAll();
     bool merged = false;
-    Pair next;
-    while (popCurrent(next)) {
-      regions_.merge(next.a, next.b);
+    std::uint32_t number = 0;
+    while (popCurrent(number)) {
+      const Pair& next = pairs_[number];
+      regions_.merge(next.a, next.b, joint_[number]);
       merged = true;
     }
     return merged;
@@ -298,15 +299,11 @@ private:
           if (a < b)
             pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
         });
+    joint_.resize(pairs_.size());
     const auto batches = static_cast<int>((pairs_.size() + AT_ONCE - 1) / AT_ONCE);
     parallelParts(batches, threads_, [&](int batch) {
-      Batch joint;
       const std::size_t first = static_cast<std::size_t>(batch) * AT_ONCE;
-      const std::size_t last = std::min(first + AT_ONCE, pairs_.size());
-      for (std::size_t k = first; k < last; ++k)
-        joint.sums[k - first] =
-            regions_.sums(pairs_[k].a) + regions_.sums(pairs_[k].b);
-      price(joint, first, last);
+      price(first, std::min(first + AT_ONCE, pairs_.size()));
     });
     looked_at_ = 0;
     queueNew();
@@ -314,11 +311,11 @@ private:
 
   /// The most alike pair as things stand. Those above it that have grown since they were
   /// looked at are looked at again, as many at once as there are.
-  bool popCurrent(Pair& next)
+  bool popCurrent(std::uint32_t& number)
   {
     while (!queue_.empty()) {
-      const std::uint32_t number = queue_.pop();
-      next = pairs_[number];
+      number = queue_.pop();
+      const Pair next = pairs_[number];
       const int a = regions_.find(next.a);
       const int b = regions_.find(next.b);
       if (a == b)
@@ -340,33 +337,32 @@ private:
   {
     if (pairs_.size() - looked_at_ == AT_ONCE)
       consider();
-    new_.sums[pairs_.size() - looked_at_] = regions_.sums(a) + regions_.sums(b);
     pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
   }
 
   /// Queues the new pairs that may be one plane.
   void consider()
   {
-    price(new_, looked_at_, pairs_.size());
+    joint_.resize(pairs_.size());
+    price(looked_at_, pairs_.size());
     queueNew();
   }
 
   static constexpr std::size_t AT_ONCE = 64; ///< pairs that stay in the nearest cache
 
-  /// Pairs' sums, and the planes of both.
-  struct Batch {
-    std::array<TileSums, AT_ONCE> sums;
-    std::array<FittedPlane, AT_ONCE> planes;
-  };
-
-  void price(Batch& joint, std::size_t first, std::size_t last)
+  /// Fits the planes of pairs, at most AT_ONCE, and tells what it costs to merge them.
+  void price(std::size_t first, std::size_t last)
   {
-    fitPlanes(joint.sums.data(), last - first, joint.planes.data());
+    std::array<TileSums, AT_ONCE> sums;
+    for (std::size_t k = first; k < last; ++k)
+      sums[k - first] = regions_.sums(pairs_[k].a) + regions_.sums(pairs_[k].b);
+    if (first < last)
+      fitPlanes(sums.data(), last - first, &joint_[first]);
     for (std::size_t k = first; k < last; ++k) {
       Pair& pair = pairs_[k];
       pair.cost = static_cast<float>(
           dissimilarity(regions_.plane(pair.a), regions_.plane(pair.b),
-                        joint.planes[k - first], noise_, parameters_));
+                        joint_[k], noise_, parameters_));
     }
   }
 
@@ -384,8 +380,8 @@ private:
   double limit_;
   CostQueue queue_;
   std::vector<Pair> pairs_;   ///< in the order in which they were offered
-  std::size_t looked_at_ = 0; ///< so many of them, the first
-  Batch new_;                 ///< the others
+  std::vector<FittedPlane> joint_; ///< plane of both
+  std::size_t looked_at_ = 0;      ///< so many pairs, the first
 };
 
 } // namespace

@@ -64,13 +64,14 @@ public:
     }
   }
 
-  int merge(int a, int b)
+  /// \param[in] joint plane of the sums of both
+  int merge(int a, int b, const FittedPlane& joint)
   {
     if (tiles(a) < tiles(b))
       std::swap(a, b);
     at(parent_, b) = a;
     at(sums_, a) += at(sums_, b);
-    at(planes_, a) = fitSums(at(sums_, a));
+    at(planes_, a) = joint;
     at(tiles_, a) += at(tiles_, b);
     List& to = at(lists_, a);
     const List& from = at(lists_, b);
