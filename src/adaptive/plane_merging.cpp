@@ -180,22 +180,54 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
 
 namespace {
 
-/// Tiles that lie side by side.
-void findNeighbours(const std::vector<int>& cell_region, const TileLevel& cells,
-                    Regions& regions)
+/// Rows of cells, half open.
+struct CellRows {
+  int begin, end;
+};
+
+/// Tiles that lie side by side in some rows of cells.
+void linkInside(const std::vector<int>& cell_region, const TileLevel& cells,
+                CellRows rows, Regions& regions)
 {
   const auto touch = [&](int a, int b) {
     if (a >= 0 && b >= 0 && a != b)
       regions.touch(a, b);
   };
-  for (int r = 0; r < cells.rows; ++r)
+  for (int r = rows.begin; r < rows.end; ++r)
     for (int c = 0; c < cells.columns; ++c) {
       const int a = cell_region[cells.at(c, r)];
       if (c + 1 < cells.columns)
         touch(a, cell_region[cells.at(c + 1, r)]);
-      if (r + 1 < cells.rows)
+      if (r + 1 < rows.end)
         touch(a, cell_region[cells.at(c, r + 1)]);
     }
+}
+
+/// Regions on either side of the border above a row of cells.
+void linkAcross(const std::vector<int>& cell_region, const TileLevel& cells, int row,
+                Regions& regions)
+{
+  for (int c = 0; c < cells.columns; ++c) {
+    const int above = cell_region[cells.at(c, row - 1)];
+    const int below = cell_region[cells.at(c, row)];
+    if (above >= 0 && below >= 0)
+      regions.touch(regions.find(above), regions.find(below));
+  }
+}
+
+/// The tiles of some rows of cells, in the order of their numbers.
+std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& cells,
+                         CellRows rows, std::size_t tiles)
+{
+  std::vector<std::uint8_t> is_in(tiles, 0);
+  for (std::size_t cell = cells.at(0, rows.begin); cell < cells.at(0, rows.end); ++cell)
+    if (cell_region[cell] >= 0)
+      is_in[static_cast<std::size_t>(cell_region[cell])] = 1;
+  std::vector<int> found;
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+    if (is_in[tile] != 0)
+      found.push_back(static_cast<int>(tile));
+  return found;
 }
 
 /// A queue of numbers by cost, the least first, those of costs within three per cent of one
@@ -257,9 +289,11 @@ private:
 /// Merges pairs of regions, the most alike first.
 class Agglomeration {
 public:
-  Agglomeration(Regions& regions, const NoiseLaw& noise,
+  /// \param[in] tiles none but these have neighbours
+  Agglomeration(Regions& regions, std::vector<int> tiles, const NoiseLaw& noise,
                 const AdaptiveParameters& parameters, unsigned int threads)
   : regions_(regions)
+  , tiles_(std::move(tiles))
   , noise_(noise)
   , parameters_(parameters)
   , threads_(threads)
@@ -267,8 +301,19 @@ public:
   , queue_(static_cast<float>(limit_))
   {}
 
-  /// Merges until no two neighbours are one plane. \return whether any were
-  bool run()
+  /// Merges until no two neighbours are one plane; what was too different may fit what has
+  /// grown. \param[in] mark walks before this one \return the same after it
+  int run(int mark)
+  {
+    mark_ = mark;
+    while (mergeOnce())
+      ;
+    return mark_;
+  }
+
+private:
+  /// \return whether any were merged
+  bool mergeOnce()
   {
     offerAll();
     bool merged = false;
@@ -281,7 +326,6 @@ public:
     return merged;
   }
 
-private:
   /// Two regions, as they were when they were offered.
   struct Pair {
     int a, b;
@@ -293,9 +337,9 @@ private:
   void offerAll()
   {
     pairs_.clear();
-    for (int a = 0; a < regions_.size(); ++a)
+    for (const int a : tiles_)
       if (regions_.find(a) == a)
-        regions_.forEachNeighbour(a, [&](int b) {
+        regions_.forEachNeighbour(a, ++mark_, [&](int b) {
           if (a < b)
             pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
         });
@@ -374,6 +418,8 @@ private:
   }
 
   Regions& regions_;
+  std::vector<int> tiles_;
+  int mark_ = 0; ///< of the last walk through neighbours
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
   unsigned int threads_;
@@ -390,12 +436,33 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
                           const NoiseLaw& noise, const AdaptiveParameters& parameters,
                           unsigned int threads)
 {
+  const TileLevel& cells = pyramid[0];
+  const std::size_t count = tiles.planes.size();
   std::vector<int> cell_region = std::move(tiles.cell_region);
   Regions regions(std::move(tiles));
-  findNeighbours(cell_region, pyramid[0], regions);
-  Agglomeration agglomeration(regions, noise, parameters, threads);
-  while (agglomeration.run()) // what was too different may fit what has grown
-    ;
+  // Between the halves of the image nothing merges before each of them is done.
+  const Bands halves(pyramid.back().rows, 2);
+  const auto rows = [&](int half) {
+    const int side = pyramid.back().side / CELL;
+    return CellRows{halves.begin(half) * side,
+                    std::min(halves.begin(half + 1) * side, cells.rows)};
+  };
+  for (int half = 0; half < halves.count; ++half)
+    linkInside(cell_region, cells, rows(half), regions);
+  std::vector<int> marks(static_cast<std::size_t>(halves.count), 0);
+  parallelParts(halves.count, threads, [&](int half) {
+    Agglomeration agglomeration(regions, tilesIn(cell_region, cells, rows(half), count),
+                                noise, parameters, 1);
+    marks[static_cast<std::size_t>(half)] = agglomeration.run(0);
+  });
+  if (halves.count > 1) {
+    for (int half = 1; half < halves.count; ++half)
+      linkAcross(cell_region, cells, rows(half).begin, regions);
+    Agglomeration agglomeration(regions,
+                                tilesIn(cell_region, cells, {0, cells.rows}, count),
+                                noise, parameters, threads);
+    agglomeration.run(*std::max_element(marks.begin(), marks.end()));
+  }
   return collect(regions, std::move(cell_region), 0.5 * parameters.min_points);
 }
 

@@ -42,23 +42,23 @@ public:
   }
 
   /// Calls visit(b) for the neighbours of a root, as roots, each once.
+  /// \param[in] mark a number that no walk here had before
   template <typename Visit>
-  void forEachNeighbour(int a, const Visit& visit)
+  void forEachNeighbour(int a, int mark, const Visit& visit)
   {
-    ++mark_;
-    at(marks_, a) = mark_;
+    at(marks_, a) = mark;
     List& list = at(lists_, a);
     int before = NO_LINK;
     for (int k = list.first; k != NO_LINK; k = at(links_, k).next) {
       Link& link = at(links_, k);
       link.to = find(link.to);
-      if (at(marks_, link.to) == mark_) { // known: leaves the list
+      if (at(marks_, link.to) == mark) { // known: leaves the list
         (before == NO_LINK ? list.first : at(links_, before).next) = link.next;
         if (link.next == NO_LINK)
           list.last = before;
         continue;
       }
-      at(marks_, link.to) = mark_;
+      at(marks_, link.to) = mark;
       before = k;
       visit(link.to);
     }
@@ -122,7 +122,6 @@ private:
   std::vector<List> lists_; ///< neighbours of each set
   std::vector<Link> links_;
   std::vector<int> marks_; ///< sets that the walk of this mark has met
-  int mark_ = 0;
 };
 
 /// A pair of regions to merge, as they were when it was looked at.
