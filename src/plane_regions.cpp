@@ -20,11 +20,16 @@ namespace {
 
 /// Labels of the points that were measured; NO_PLANE for the others.
 std::vector<std::uint16_t> labelsOfValid(const OrganizedPoints& points,
-                                         const std::vector<std::uint16_t>& labels)
+                                         const std::vector<std::uint16_t>& labels,
+                                         unsigned int threads)
 {
   std::vector<std::uint16_t> out(labels.size());
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = points.valid[i] != 0 ? labels[i] : NO_PLANE;
+  const auto width = static_cast<std::size_t>(points.width);
+  parallelRows(points.height, threads, [&](int row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * width;
+    for (std::size_t i = begin; i < begin + width; ++i)
+      out[i] = points.valid[i] != 0 ? labels[i] : NO_PLANE;
+  });
   return out;
 }
 
@@ -52,6 +57,27 @@ ScatterMatrix sumRun(const OrganizedPoints& points, const LabelRun& run)
   for (std::size_t i = run.begin + rows * COLUMNS; i < run.end; ++i)
     sums.add(points.x[i], points.y[i], points.z[i]);
   return sums;
+}
+
+/// Ten sums of the points of each label, band by band of the image.
+std::vector<ScatterMatrix> sumLabels(const OrganizedPoints& points, std::size_t count,
+                                     const LabelRuns& image, unsigned int threads)
+{
+  const Bands bands(static_cast<int>(image.rows.size()) - 1, 4);
+  std::vector<std::vector<ScatterMatrix>> parts(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<ScatterMatrix>& sums = parts[static_cast<std::size_t>(band)];
+    sums.resize(count);
+    const std::size_t last =
+        image.rows[static_cast<std::size_t>(bands.begin(band + 1))];
+    for (std::size_t k = image.rows[static_cast<std::size_t>(bands.begin(band))];
+         k < last; ++k)
+      sums[image.runs[k].label] += sumRun(points, image.runs[k]);
+  });
+  for (std::size_t part = 1; part < parts.size(); ++part)
+    for (std::size_t k = 0; k < count; ++k)
+      parts[0][k] += parts[part][k];
+  return std::move(parts[0]);
 }
 
 PlaneRegion makeRegion(const Plane& plane, std::size_t label, double area,
@@ -112,20 +138,26 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<std::uint16_t>& labels,
                                        int min_points, double min_area)
 {
-  const LabelRuns image =
-      findRuns(labelsOfValid(points, labels), points.width, NO_PLANE);
-  std::vector<ScatterMatrix> scatter(planes.size());
-  for (const LabelRun& run : image.runs)
-    scatter[run.label] += sumRun(points, run);
-  return gatherRegions(points, planes, image, scatter, min_points, min_area, 1);
+  return gatherRegions(points, planes, labels, min_points, min_area, 1);
 }
 
 std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<Plane>& planes,
-                                       const LabelRuns& image,
-                                       const std::vector<ScatterMatrix>& scatter,
+                                       const std::vector<std::uint16_t>& labels,
                                        int min_points, double min_area,
                                        unsigned int threads)
+{
+  const LabelRuns image =
+      findRuns(labelsOfValid(points, labels, threads), points.width, NO_PLANE, threads);
+  return gatherRegions(points, planes, image,
+                       sumLabels(points, planes.size(), image, threads), min_points,
+                       min_area, threads);
+}
+
+std::vector<PlaneRegion>
+gatherRegions(const OrganizedPoints& points, const std::vector<Plane>& planes,
+              const LabelRuns& image, const std::vector<ScatterMatrix>& scatter,
+              int min_points, double min_area, unsigned int threads)
 {
   const std::vector<std::size_t> counts = countPoints(image, planes.size());
   const std::vector<double> areas = meshAreas(points, planes, image, threads);

@@ -99,7 +99,8 @@ public:
   }
   void reach(int strip, int steps)
   {
-    done_[static_cast<std::size_t>(strip)].steps.store(steps, std::memory_order_release);
+    done_[static_cast<std::size_t>(strip)].steps.store(steps,
+                                                       std::memory_order_release);
   }
 
 private:

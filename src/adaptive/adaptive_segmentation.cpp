@@ -121,7 +121,8 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
                        points.width, threads);
   report.iterations += parameters.passes;
   timer.finish("propagation");
-  FittedRegions fitted = refineRegions(points, pyramid[0], noise, parameters, image, threads);
+  FittedRegions fitted =
+      refineRegions(points, pyramid[0], noise, parameters, image, threads);
   if (observer != nullptr)
     observer->seeImage(Stage::REFINED, fitted, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image, threads);
@@ -170,10 +171,9 @@ PlaneSegmentation adaptive::segmentObserved(const OrganizedPoints& points,
   const std::vector<Plane> planes(found.fitted.planes.begin(),
                                   found.fitted.planes.end());
   const LabelRuns runs = planeRuns(found.image.runs);
-  result.regions = gatherRegions(points, planes, runs,
-                                 {found.fitted.sums.begin(), found.fitted.sums.end()},
-                                 parameters.min_inliers, parameters.min_area,
-                                 parameters.number_of_threads);
+  result.regions = gatherRegions(
+      points, planes, runs, {found.fitted.sums.begin(), found.fitted.sums.end()},
+      parameters.min_inliers, parameters.min_area, parameters.number_of_threads);
   result.block_noise = std::move(found.block_noise);
   result.labels = std::move(found.image.labels);
   paintRegions(runs, result.regions, planes.size(), result.labels,

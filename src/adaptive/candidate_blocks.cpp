@@ -82,8 +82,7 @@ private:
 } // namespace
 
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
-                               int width, int height, int reach,
-                               unsigned int threads)
+                               int width, int height, int reach, unsigned int threads)
 {
   constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
   CandidateBlocks out;

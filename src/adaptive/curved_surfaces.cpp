@@ -206,9 +206,9 @@ private:
                            unsigned int threads) const
   {
     const Bands bands(points.height, 4);
-    std::vector<BorderFinder> parts(static_cast<std::size_t>(bands.count),
-                                    {points, regions_, image.labels,
-                                     parameters_.fan_angle * DEGREE});
+    std::vector<BorderFinder> parts(
+        static_cast<std::size_t>(bands.count),
+        {points, regions_, image.labels, parameters_.fan_angle * DEGREE});
     parallelParts(bands.count, threads, [&](int band) {
       parts[static_cast<std::size_t>(band)].look(image.runs, bands.begin(band),
                                                  bands.begin(band + 1));

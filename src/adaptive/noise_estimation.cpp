@@ -148,16 +148,16 @@ void addGrowthRatios(const TileLevel& level, const TileLevel& below, TileRow row
                      const AdaptiveParameters& parameters, std::vector<double>& ratios)
 {
   for (int c = 0; c < level.columns; c += row.step) {
-      const FittedPlane& parent = level.planes[level.at(c, row.number)];
-      if (parent.n < 4 || 2 * row.number + 1 >= below.rows || 2 * c + 1 >= below.columns)
-        continue;
-      const double variance =
-          meanVariance(quartersOf(below, c, row.number, parameters), known_growth, noise);
-      if (variance >= 0)
-        ratios.push_back(
-            unbiasedRms(parent) /
-            std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
-    }
+    const FittedPlane& parent = level.planes[level.at(c, row.number)];
+    if (parent.n < 4 || 2 * row.number + 1 >= below.rows || 2 * c + 1 >= below.columns)
+      continue;
+    const double variance =
+        meanVariance(quartersOf(below, c, row.number, parameters), known_growth, noise);
+    if (variance >= 0)
+      ratios.push_back(
+          unbiasedRms(parent) /
+          std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
+  }
 }
 
 /// Growth of the rms distance from tiles' quarters to the tiles.

@@ -111,7 +111,8 @@ using LevelStarts = std::vector<std::size_t>;
 /// Numbers the tiles of all parts anew: the largest first, those of one level part by part.
 class TileNumbering {
 public:
-  TileNumbering(std::vector<TileSelection>& parts, const std::vector<LevelStarts>& starts)
+  TileNumbering(std::vector<TileSelection>& parts,
+                const std::vector<LevelStarts>& starts)
   : number_(parts.size())
   {
     for (std::size_t k = 0; k < parts.size(); ++k)
@@ -404,9 +405,9 @@ private:
       fitPlanes(sums.data(), last - first, &joint_[first]);
     for (std::size_t k = first; k < last; ++k) {
       Pair& pair = pairs_[k];
-      pair.cost = static_cast<float>(
-          dissimilarity(regions_.plane(pair.a), regions_.plane(pair.b),
-                        joint_[k], noise_, parameters_));
+      pair.cost = static_cast<float>(dissimilarity(regions_.plane(pair.a),
+                                                   regions_.plane(pair.b), joint_[k],
+                                                   noise_, parameters_));
     }
   }
 
@@ -425,7 +426,7 @@ private:
   unsigned int threads_;
   double limit_;
   CostQueue queue_;
-  std::vector<Pair> pairs_;   ///< in the order in which they were offered
+  std::vector<Pair> pairs_;        ///< in the order in which they were offered
   std::vector<FittedPlane> joint_; ///< plane of both
   std::size_t looked_at_ = 0;      ///< so many pairs, the first
 };

@@ -92,8 +92,7 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
   parallelParts(pyramid.back().rows, threads, [&](int row) {
     for (std::size_t l = 0; l < pyramid.size(); ++l) {
       const int rows = 1 << (pyramid.size() - 1 - l);
-      const TileRows part = {row * rows,
-                             std::min((row + 1) * rows, pyramid[l].rows)};
+      const TileRows part = {row * rows, std::min((row + 1) * rows, pyramid[l].rows)};
       if (l == 0) {
         sumCells(points, part, pyramid[l]);
         continue;
