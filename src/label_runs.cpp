@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "label_runs.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cstring>
@@ -55,21 +56,43 @@ private:
 
 } // namespace
 
+namespace {
+
+/// Adds the runs of the points from begin to end, all of one row.
+void addRuns(const std::vector<std::uint16_t>& labels, std::uint16_t background,
+             std::size_t begin, std::size_t end, std::vector<LabelRun>& runs)
+{
+  for (std::size_t i = begin; i < end;) {
+    const std::size_t other = findOther(labels[i], labels.data(), i + 1, end);
+    if (labels[i] != background)
+      runs.push_back({i, other, labels[i]});
+    i = other;
+  }
+}
+
+} // namespace
+
 LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
-                   std::uint16_t background)
+                   std::uint16_t background, unsigned int threads)
 {
   LabelRuns out;
   out.width = static_cast<std::size_t>(width);
-  out.rows.push_back(0);
-  for (std::size_t row = 0; row < labels.size(); row += out.width) {
-    for (std::size_t i = row; i < row + out.width;) {
-      const std::size_t end =
-          findOther(labels[i], labels.data(), i + 1, row + out.width);
-      if (labels[i] != background)
-        out.runs.push_back({i, end, labels[i]});
-      i = end;
+  const Bands bands(width > 0 ? static_cast<int>(labels.size() / out.width) : 0);
+  out.rows.resize(static_cast<std::size_t>(bands.rows) + 1, 0);
+  std::vector<std::vector<LabelRun>> parts(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
+    for (int r = bands.begin(band); r < bands.begin(band + 1); ++r) {
+      const auto row = static_cast<std::size_t>(r);
+      addRuns(labels, background, row * out.width, (row + 1) * out.width, runs);
+      out.rows[row + 1] = runs.size(); // as yet of the band
     }
-    out.rows.push_back(out.runs.size());
+  });
+  for (int band = 0; band < bands.count; ++band) {
+    for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
+      out.rows[static_cast<std::size_t>(r) + 1] += out.runs.size();
+    const std::vector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
+    out.runs.insert(out.runs.end(), runs.begin(), runs.end());
   }
   return out;
 }

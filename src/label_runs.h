@@ -32,7 +32,7 @@ std::size_t findOther(std::uint16_t label, const std::uint16_t* labels, std::siz
 /// Runs of a label image. \param[in] background label that belongs to no run
 /// O(points)
 LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
-                   std::uint16_t background);
+                   std::uint16_t background, unsigned int threads = 1);
 
 /// How many numbers follow each other, one more each time, from the k-th on; at most so many.
 /// Numbers ascend. O(log of the result)

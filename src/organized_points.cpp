@@ -2,6 +2,7 @@
 #include <pcl_mrf_planes/organized_points.h>
 
 #include "organized_points_kernel.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cstring>
@@ -21,15 +22,23 @@ void OrganizedPoints::resize(int new_width, int new_height)
 }
 
 void OrganizedPoints::load(int new_width, int new_height, const float* first,
-                           std::size_t stride)
+                           std::size_t stride, unsigned int threads)
 {
-  const std::size_t count = setSize(new_width, new_height);
-  std::size_t i =
-      loadPoints(first, stride, count, {x.data(), y.data(), z.data(), valid.data()});
-  for (; i < count; ++i) {
-    const float* point = first + i * stride;
-    set(i, point[0], point[1], point[2]);
-  }
+  setSize(new_width, new_height);
+  const Bands bands(height);
+  parallelParts(bands.count, threads, [&](int band) {
+    const auto start = [&](int b) {
+      return static_cast<std::size_t>(bands.begin(b)) * static_cast<std::size_t>(width);
+    };
+    std::size_t i = start(band);
+    const std::size_t end = start(band + 1);
+    i += loadPoints(first + i * stride, stride, end - i,
+                    {&x[i], &y[i], &z[i], &valid[i]});
+    for (; i < end; ++i) {
+      const float* point = first + i * stride;
+      set(i, point[0], point[1], point[2]);
+    }
+  });
 }
 
 const float* OrganizedPoints::depthRow(int row, std::vector<float>& storage) const

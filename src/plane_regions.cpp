@@ -6,6 +6,7 @@
 #include "adaptive/tile_sums_kernel.h"
 #include "region_area.h"
 #include "region_gathering.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,11 +20,16 @@ namespace {
 
 /// Labels of the points that were measured; NO_PLANE for the others.
 std::vector<std::uint16_t> labelsOfValid(const OrganizedPoints& points,
-                                         const std::vector<std::uint16_t>& labels)
+                                         const std::vector<std::uint16_t>& labels,
+                                         unsigned int threads)
 {
   std::vector<std::uint16_t> out(labels.size());
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = points.valid[i] != 0 ? labels[i] : NO_PLANE;
+  const auto width = static_cast<std::size_t>(points.width);
+  parallelRows(points.height, threads, [&](int row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * width;
+    for (std::size_t i = begin; i < begin + width; ++i)
+      out[i] = points.valid[i] != 0 ? labels[i] : NO_PLANE;
+  });
   return out;
 }
 
@@ -53,6 +59,27 @@ ScatterMatrix sumRun(const OrganizedPoints& points, const LabelRun& run)
   return sums;
 }
 
+/// Ten sums of the points of each label, band by band of the image.
+std::vector<ScatterMatrix> sumLabels(const OrganizedPoints& points, std::size_t count,
+                                     const LabelRuns& image, unsigned int threads)
+{
+  const Bands bands(static_cast<int>(image.rows.size()) - 1, 4);
+  std::vector<std::vector<ScatterMatrix>> parts(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<ScatterMatrix>& sums = parts[static_cast<std::size_t>(band)];
+    sums.resize(count);
+    const std::size_t last =
+        image.rows[static_cast<std::size_t>(bands.begin(band + 1))];
+    for (std::size_t k = image.rows[static_cast<std::size_t>(bands.begin(band))];
+         k < last; ++k)
+      sums[image.runs[k].label] += sumRun(points, image.runs[k]);
+  });
+  for (std::size_t part = 1; part < parts.size(); ++part)
+    for (std::size_t k = 0; k < count; ++k)
+      parts[0][k] += parts[part][k];
+  return std::move(parts[0]);
+}
+
 PlaneRegion makeRegion(const Plane& plane, std::size_t label, double area,
                        const ScatterMatrix& scatter)
 {
@@ -68,22 +95,33 @@ PlaneRegion makeRegion(const Plane& plane, std::size_t label, double area,
 
 /// Points of the runs of each label that has a region.
 void fillIndices(const LabelRuns& image, const std::vector<std::size_t>& counts,
-                 std::vector<PlaneRegion>& regions)
+                 unsigned int threads, std::vector<PlaneRegion>& regions)
 {
   std::vector<PlaneRegion*> of_label(counts.size(), nullptr);
-  for (PlaneRegion& region : regions) {
-    const auto label = static_cast<std::size_t>(region.label);
-    of_label[label] = &region;
-    region.indices.reserve(counts[label]);
+  for (PlaneRegion& region : regions)
+    of_label[static_cast<std::size_t>(region.label)] = &region;
+  // Where the points of each run belong among those of its label.
+  std::vector<std::size_t> place;
+  place.reserve(image.runs.size());
+  std::vector<std::size_t> filled(counts.size(), 0);
+  for (const LabelRun& run : image.runs) {
+    place.push_back(filled[run.label]);
+    filled[run.label] += run.end - run.begin;
   }
-  for (const LabelRun& run : image.runs)
-    if (PlaneRegion* region = of_label[run.label]) {
-      std::vector<int>& indices = region->indices;
-      const std::size_t size = indices.size();
-      indices.resize(size + run.end - run.begin);
-      std::iota(indices.begin() + static_cast<std::ptrdiff_t>(size), indices.end(),
-                static_cast<int>(run.begin));
+  parallelParts(static_cast<int>(regions.size()), threads, [&](int k) {
+    PlaneRegion& region = regions[static_cast<std::size_t>(k)];
+    region.indices.resize(counts[static_cast<std::size_t>(region.label)]);
+  });
+  parallelRows(static_cast<int>(image.rows.size()) - 1, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k) {
+      const LabelRun& run = image.runs[k];
+      if (PlaneRegion* region = of_label[run.label])
+        std::iota(&region->indices[place[k]],
+                  &region->indices[place[k]] + (run.end - run.begin),
+                  static_cast<int>(run.begin));
     }
+  });
 }
 
 /// Largest area first; then most points; then the first point.
@@ -100,28 +138,35 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<std::uint16_t>& labels,
                                        int min_points, double min_area)
 {
-  const LabelRuns image =
-      findRuns(labelsOfValid(points, labels), points.width, NO_PLANE);
-  std::vector<ScatterMatrix> scatter(planes.size());
-  for (const LabelRun& run : image.runs)
-    scatter[run.label] += sumRun(points, run);
-  return gatherRegions(points, planes, image, scatter, min_points, min_area);
+  return gatherRegions(points, planes, labels, min_points, min_area, 1);
 }
 
 std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
                                        const std::vector<Plane>& planes,
-                                       const LabelRuns& image,
-                                       const std::vector<ScatterMatrix>& scatter,
-                                       int min_points, double min_area)
+                                       const std::vector<std::uint16_t>& labels,
+                                       int min_points, double min_area,
+                                       unsigned int threads)
+{
+  const LabelRuns image =
+      findRuns(labelsOfValid(points, labels, threads), points.width, NO_PLANE, threads);
+  return gatherRegions(points, planes, image,
+                       sumLabels(points, planes.size(), image, threads), min_points,
+                       min_area, threads);
+}
+
+std::vector<PlaneRegion>
+gatherRegions(const OrganizedPoints& points, const std::vector<Plane>& planes,
+              const LabelRuns& image, const std::vector<ScatterMatrix>& scatter,
+              int min_points, double min_area, unsigned int threads)
 {
   const std::vector<std::size_t> counts = countPoints(image, planes.size());
-  const std::vector<double> areas = meshAreas(points, planes, image);
+  const std::vector<double> areas = meshAreas(points, planes, image, threads);
   std::vector<PlaneRegion> regions;
   for (std::size_t l = 0; l < planes.size(); ++l)
     if (counts[l] > 0 && areas[l] >= min_area &&
         counts[l] >= static_cast<std::size_t>(std::max(min_points, 0)))
       regions.push_back(makeRegion(planes[l], l, areas[l], scatter[l]));
-  fillIndices(image, counts, regions);
+  fillIndices(image, counts, threads, regions);
   std::sort(
       regions.begin(), regions.end(),
       [](const PlaneRegion& p, const PlaneRegion& q) { return rank(p) < rank(q); });
@@ -129,14 +174,18 @@ std::vector<PlaneRegion> gatherRegions(const OrganizedPoints& points,
 }
 
 void paintRegions(const LabelRuns& image, const std::vector<PlaneRegion>& regions,
-                  std::size_t planes, std::vector<std::uint16_t>& labels)
+                  std::size_t planes, std::vector<std::uint16_t>& labels,
+                  unsigned int threads)
 {
   std::vector<std::uint16_t> number(planes, 0);
   for (std::size_t k = 0; k < regions.size(); ++k)
     number[static_cast<std::size_t>(regions[k].label)] =
         static_cast<std::uint16_t>(k + 1);
-  for (const LabelRun& run : image.runs)
-    fillRun(run, number[run.label], labels);
+  parallelRows(static_cast<int>(image.rows.size()) - 1, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k)
+      fillRun(image.runs[k], number[image.runs[k].label], labels);
+  });
 }
 
 std::vector<std::uint16_t> regionLabels(const OrganizedPoints& points,

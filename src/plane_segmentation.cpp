@@ -4,6 +4,7 @@
 #include <pcl_mrf_planes/belief_propagation.h>
 #include <pcl_mrf_planes/row_propagation.h>
 
+#include "region_gathering.h"
 #include "stage_timer.h"
 
 #include <cmath>
@@ -114,7 +115,7 @@ PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
     timer.finish("propagation");
 
     result.regions = gatherRegions(points, planes, map_labels, parameters.min_inliers,
-                                   parameters.min_area);
+                                   parameters.min_area, parameters.number_of_threads);
   }
   result.labels = regionLabels(points, result.regions);
   timer.finish("regions");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "region_area.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@ struct Strip {
   std::size_t begin; ///< upper row: index of the first point
   std::size_t end;   ///< one past the last
   std::uint16_t label;
+  const LabelRun* upper;
+  const LabelRun* lower;
 };
 
 /// Adds up the border of the mesh of each label.
@@ -28,25 +31,28 @@ public:
   , twice_area_(planes.size(), 0.0)
   {}
 
-  std::vector<double> areas()
+  /// Adds what lies between the points of some rows and those of the next ones, and along
+  /// the former.
+  void addRows(std::size_t first, std::size_t last)
   {
+    const std::size_t height = image_.rows.size() - 1;
     std::vector<Strip> above;
     std::vector<Strip> below;
-    const std::size_t height = image_.rows.size() - 1;
-    for (std::size_t row = 0; row + 1 < height; ++row) {
+    if (first > 0)
+      findStrips(first - 1, above);
+    for (std::size_t row = first; row < last; ++row) {
       below.clear();
-      forEachOverlap(image_, row, [&](std::size_t a, std::size_t b) {
-        addStrip(image_.runs[a], image_.runs[b], below);
-      });
+      if (row + 1 < height) {
+        findStrips(row, below);
+        for (const Strip& strip : below)
+          addStrip(strip);
+      }
       addEdges(above, below, image_.width);
       std::swap(above, below);
     }
-    below.clear();
-    addEdges(above, below, image_.width);
-    for (double& area : twice_area_)
-      area = std::abs(area) / 2;
-    return twice_area_;
   }
+
+  const std::vector<double>& twiceAreas() const { return twice_area_; }
 
 private:
   /// n . (p x q): what the edge from p to q adds to twice the area of its label.
@@ -57,15 +63,25 @@ private:
     return planes_[label].normal.dot(from.cross(to));
   }
 
-  void addStrip(const LabelRun& upper, const LabelRun& lower,
-                std::vector<Strip>& strips)
+  /// Strips between a row and the next one.
+  void findStrips(std::size_t row, std::vector<Strip>& strips) const
   {
-    if (upper.label != lower.label)
-      return;
     const std::size_t width = image_.width;
-    const Strip strip = {std::max(upper.begin, lower.begin - width),
-                         std::min(upper.end, lower.end - width), upper.label};
-    strips.push_back(strip);
+    forEachOverlap(image_, row, [&](std::size_t a, std::size_t b) {
+      const LabelRun& upper = image_.runs[a];
+      const LabelRun& lower = image_.runs[b];
+      if (upper.label == lower.label)
+        strips.push_back({std::max(upper.begin, lower.begin - width),
+                          std::min(upper.end, lower.end - width), upper.label, &upper,
+                          &lower});
+    });
+  }
+
+  void addStrip(const Strip& strip)
+  {
+    const std::size_t width = image_.width;
+    const LabelRun& upper = *strip.upper;
+    const LabelRun& lower = *strip.lower;
     // Down the right side, up the left one.
     double& sum = twice_area_[strip.label];
     const std::size_t last = strip.end - 1;
@@ -140,9 +156,24 @@ private:
 } // namespace
 
 std::vector<double> meshAreas(const OrganizedPoints& points,
-                              const std::vector<Plane>& planes, const LabelRuns& image)
+                              const std::vector<Plane>& planes, const LabelRuns& image,
+                              unsigned int threads)
 {
-  return MeshBorder(points, planes, image).areas();
+  const Bands bands(static_cast<int>(image.rows.size()) - 1, 4);
+  std::vector<MeshBorder> parts(static_cast<std::size_t>(bands.count),
+                                MeshBorder(points, planes, image));
+  parallelParts(bands.count, threads, [&](int band) {
+    parts[static_cast<std::size_t>(band)].addRows(
+        static_cast<std::size_t>(bands.begin(band)),
+        static_cast<std::size_t>(bands.begin(band + 1)));
+  });
+  std::vector<double> areas(planes.size(), 0.0);
+  for (const MeshBorder& part : parts)
+    for (std::size_t k = 0; k < areas.size(); ++k)
+      areas[k] += part.twiceAreas()[k];
+  for (double& area : areas)
+    area = std::abs(area) / 2;
+  return areas;
 }
 
 } // namespace pcl_mrf_planes

@@ -18,6 +18,7 @@ namespace pcl_mrf_planes {
 /// the border of the mesh is visited. O(runs + border)
 /// \param[in] planes of the labels 0, 1, 2, ...
 std::vector<double> meshAreas(const OrganizedPoints& points,
-                              const std::vector<Plane>& planes, const LabelRuns& image);
+                              const std::vector<Plane>& planes, const LabelRuns& image,
+                              unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <vector>
+
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -18,23 +24,120 @@ inline int threadCount(unsigned int setting)
 #endif
 }
 
-/// Calls work(row) for every row below \a rows. Rows must not depend on each other, so
-/// that the result is the same at any thread count.
+/// Calls work(part) for every part below \a parts. Parts must not depend on each other, so
+/// that the result is the same at any thread count. One exception that work throws is
+/// thrown again here, after all parts.
 template <typename Work>
-void parallelRows(int rows, unsigned int threads, Work&& work)
+void parallelParts(int parts, unsigned int threads, const Work& work)
 {
 #ifdef _OPENMP
-  const int count = threadCount(threads);
+  const int count = std::min(threadCount(threads), parts);
   if (count > 1) {
-#pragma omp parallel for schedule(static) num_threads(count)
-    for (int row = 0; row < rows; ++row)
-      work(row);
+    std::exception_ptr failure; // none may leave the threads
+#pragma omp parallel for schedule(dynamic, 1) num_threads(count)
+    for (int part = 0; part < parts; ++part)
+      try {
+        work(part);
+      }
+      catch (...) {
+#pragma omp critical(pcl_mrf_planes_failure)
+        failure = std::current_exception();
+      }
+    if (failure)
+      std::rethrow_exception(failure);
     return;
   }
 #endif
   static_cast<void>(threads);
-  for (int row = 0; row < rows; ++row)
-    work(row);
+  for (int part = 0; part < parts; ++part)
+    work(part);
+}
+
+/// Rows of an image in bands. Their number depends on the number of rows alone, never on that
+/// of the threads: what is added up band by band is so in the same order always.
+struct Bands {
+  int rows;
+  int count;
+
+  explicit Bands(int of_rows, int most = 16)
+  : rows(of_rows)
+  , count(std::clamp(of_rows, 1, most))
+  {}
+
+  /// The first row of a band; rows at \a count.
+  int begin(int band) const
+  {
+    return static_cast<int>(static_cast<long long>(rows) * band / count);
+  }
+};
+
+/// Calls work(row) for every row below \a rows, as parallelParts() does for parts.
+template <typename Work>
+void parallelRows(int rows, unsigned int threads, const Work& work)
+{
+  const Bands bands(rows);
+  parallelParts(bands.count, threads, [&](int band) {
+    for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
+      work(row);
+  });
+}
+
+/// How far each strip of an image has come.
+class StripProgress {
+public:
+  explicit StripProgress(int strips)
+  : done_(static_cast<std::size_t>(strips))
+  {}
+
+  /// Waits until a strip has done more than so many steps.
+  void await(int strip, int steps) const
+  {
+    constexpr int PATIENCE = 1000; // looks, before another thread may have the core
+    for (int looks = 0; done(strip).load(std::memory_order_acquire) <= steps; ++looks)
+      if (looks > PATIENCE)
+        std::this_thread::yield();
+  }
+  void reach(int strip, int steps)
+  {
+    done_[static_cast<std::size_t>(strip)].steps.store(steps,
+                                                       std::memory_order_release);
+  }
+
+private:
+  /// On a cache line of its own.
+  struct alignas(64) Counter {
+    std::atomic<int> steps{0};
+  };
+
+  const std::atomic<int>& done(int strip) const
+  {
+    return done_[static_cast<std::size_t>(strip)].steps;
+  }
+
+  std::vector<Counter> done_;
+};
+
+/// Calls work(strip, step) for every step of every strip, as if step by step and in each of
+/// them strip by strip: a strip takes a step when the one before it has taken it. What a
+/// strip reads of the others must stay as it is after their steps up to that.
+template <typename Work>
+void staggeredSteps(int strips, int steps, unsigned int threads, const Work& work)
+{
+  StripProgress progress(strips);
+  parallelParts(strips, threads, [&](int strip) {
+    try {
+      for (int step = 0; step < steps; ++step) {
+        if (strip > 0)
+          progress.await(strip - 1, step);
+        work(strip, step);
+        progress.reach(strip, step + 1);
+      }
+    }
+    catch (...) { // nobody waits for what will not come
+      progress.reach(strip, steps);
+      throw;
+    }
+  });
 }
 
 } // namespace pcl_mrf_planes

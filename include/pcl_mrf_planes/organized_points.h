@@ -77,8 +77,10 @@ struct PCL_MRF_PLANES_EXPORT OrganizedPoints {
   }
 
   /** \brief The same as fill() for points in memory, x, y and z in a row, \a stride
-   * numbers from one to the next (at least 3). O(points) */
-  void load(int new_width, int new_height, const float* first, std::size_t stride);
+   * numbers from one to the next (at least 3), by so many \a threads, 0 for as many as
+   * there are cores. O(points) */
+  void load(int new_width, int new_height, const float* first, std::size_t stride,
+            unsigned int threads = 1);
 
   /** \brief Make the point at \a index invalid. */
   void clear(std::size_t index)

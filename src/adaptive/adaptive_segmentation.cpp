@@ -72,17 +72,18 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
                       StageObserver* observer)
 {
   AdaptiveParameters parameters = all_parameters.adaptive;
+  const unsigned int threads = all_parameters.number_of_threads;
 
   // A. Planar surface detection, with tiles as large as the surfaces allow
-  std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters);
+  std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters, threads);
   const NoiseLaw noise = parameters.estimate_noise
-                             ? estimateNoise(pyramid, parameters)
+                             ? estimateNoise(pyramid, parameters, threads)
                              : statedNoise(all_parameters.noise, pyramid, parameters);
   const double correlated = pointsPerIndependentOne(noise);
   parameters.min_points = static_cast<int>(parameters.min_points * correlated);
   parameters.min_evidence *= correlated;
-  assignLocalNoise(pyramid, noise, parameters);
-  TileRegions regions = selectTiles(pyramid, noise, parameters);
+  assignLocalNoise(pyramid, noise, parameters, threads);
+  TileRegions regions = selectTiles(pyramid, noise, parameters, threads);
   report.tiles_tried = countTiles(pyramid);
   report.tiles_kept = regions.planes.size();
   if (observer != nullptr)
@@ -90,14 +91,14 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   timer.finish("tiles");
 
   // B. Merging planes, on pooled sums
-  regions = mergeTouching(regions, pyramid, noise, parameters);
+  regions = mergeTouching(std::move(regions), pyramid, noise, parameters, threads);
   if (regions.planes.size() > MOST_PLANES)
     throw std::runtime_error("more than 65000 planes; raise min_points, or segment the "
                              "cloud in parts");
   if (observer != nullptr)
     observer->seeRegions(Stage::MERGED, regions, pyramid[0]);
   if (parameters.join_coplanar)
-    regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
+    regions = joinCoplanar(std::move(regions), points, pyramid[0], noise, parameters);
   if (observer != nullptr && parameters.join_coplanar)
     observer->seeRegions(Stage::JOINED, regions, pyramid[0]);
   report.planes_after_merging = regions.planes.size();
@@ -106,23 +107,25 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   // C and D. The random field and its MAP labels, of the cells until their planes are good
   // and then of the points; and the planes fitted to them
   for (int round = 1; round < parameters.rounds; ++round) {
-    regions = labelCells(regions, pyramid[0], noise, parameters);
+    regions = labelCells(regions, pyramid[0], noise, parameters, threads);
     if (observer != nullptr)
       observer->seeRegions(Stage::CELLS, regions, pyramid[0]);
   }
   timer.finish("cells");
-  const CandidateField field = buildField(points, regions, pyramid, noise, parameters);
+  const CandidateField field =
+      buildField(points, regions, pyramid, noise, parameters, threads);
   if (observer != nullptr)
     observer->seeField(field, points, parameters);
   timer.finish("field");
-  LabelledPoints image(propagateBeliefs(field, points, parameters.passes),
-                       points.width);
+  LabelledPoints image(propagateBeliefs(field, points, parameters.passes, threads),
+                       points.width, threads);
   report.iterations += parameters.passes;
   timer.finish("propagation");
-  FittedRegions fitted = refineRegions(points, pyramid[0], noise, parameters, image);
+  FittedRegions fitted =
+      refineRegions(points, pyramid[0], noise, parameters, image, threads);
   if (observer != nullptr)
     observer->seeImage(Stage::REFINED, fitted, image);
-  dropDoubtfulPlanes(points, noise, parameters, fitted, image);
+  dropDoubtfulPlanes(points, noise, parameters, fitted, image, threads);
   timer.finish("refinement");
   return {noise, std::move(fitted), std::move(image),
           std::make_shared<const BlockNoise>(
@@ -168,12 +171,13 @@ PlaneSegmentation adaptive::segmentObserved(const OrganizedPoints& points,
   const std::vector<Plane> planes(found.fitted.planes.begin(),
                                   found.fitted.planes.end());
   const LabelRuns runs = planeRuns(found.image.runs);
-  result.regions = gatherRegions(points, planes, runs,
-                                 {found.fitted.sums.begin(), found.fitted.sums.end()},
-                                 parameters.min_inliers, parameters.min_area);
+  result.regions = gatherRegions(
+      points, planes, runs, {found.fitted.sums.begin(), found.fitted.sums.end()},
+      parameters.min_inliers, parameters.min_area, parameters.number_of_threads);
   result.block_noise = std::move(found.block_noise);
   result.labels = std::move(found.image.labels);
-  paintRegions(runs, result.regions, planes.size(), result.labels);
+  paintRegions(runs, result.regions, planes.size(), result.labels,
+               parameters.number_of_threads);
   timer.finish("regions");
   report.count(points, result.regions);
   return result;

@@ -17,17 +17,15 @@ bool any(BlockRow::Numbers numbers)
 
 } // namespace
 
-BlockCosts::BlockCosts(const OrganizedPoints& points, const TileRegions& regions,
-                       const TileLevel& cells, const NoiseLaw& noise,
+BlockCosts::BlockCosts(const OrganizedPoints& points,
+                       const std::vector<LabelScale>& scales, const TileLevel& cells,
                        const AdaptiveParameters& parameters, CostUnits units)
 : points_(points)
 , cells_(cells)
 , parameters_(parameters)
 , units_(units)
-{
-  for (const FittedPlane& plane : regions.planes)
-    scales_.push_back(labelScale(plane, noise, parameters));
-}
+, scales_(scales)
+{}
 
 // Its k points save their distances less k times the cost of "no plane", at most
 // sqrt(k) sqrt(Q) - k none where Q is the sum of squared distances in sigmas; they pay for

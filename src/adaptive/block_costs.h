@@ -15,9 +15,10 @@ public:
   static constexpr float MOST = 3.0f; ///< cut of the data cost over "no plane"'s
   static constexpr std::size_t OPEN = SIZE_MAX; ///< more than one label can win
 
-  BlockCosts(const OrganizedPoints& points, const TileRegions& regions,
-             const TileLevel& cells, const NoiseLaw& noise,
-             const AdaptiveParameters& parameters, CostUnits units);
+  /** \param[in] scales of the regions, label - 1 */
+  BlockCosts(const OrganizedPoints& points, const std::vector<LabelScale>& scales,
+             const TileLevel& cells, const AdaptiveParameters& parameters,
+             CostUnits units);
 
   /** \brief Whether the points of a block, behind the sums, lie so near a plane that no hole
    * in it pays. \param[in] label region + 1 */
@@ -64,7 +65,7 @@ private:
   const TileLevel& cells_;
   const AdaptiveParameters& parameters_;
   CostUnits units_;
-  std::vector<LabelScale> scales_;
+  const std::vector<LabelScale>& scales_;
   // of the block at hand
   PointRow row_;
   std::array<std::array<float, SIDE>, SLOTS> per_sigma_ = {};

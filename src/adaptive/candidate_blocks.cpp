@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/candidate_field.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <utility>
@@ -81,7 +82,7 @@ private:
 } // namespace
 
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
-                               int width, int height, int reach)
+                               int width, int height, int reach, unsigned int threads)
 {
   constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
   CandidateBlocks out;
@@ -93,8 +94,8 @@ CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cell
     out.labels[block * SLOTS + out.count[block]++] =
         static_cast<std::uint16_t>(region + 1);
   };
-  Surroundings around(regions, cells, reach);
-  for (int r = 0; r < out.rows; ++r)
+  parallelRows(out.rows, threads, [&](int r) {
+    Surroundings around(regions, cells, reach);
     for (int c = 0; c < out.columns; ++c) {
       const std::size_t block = out.at(c, r);
       around.look(c, r);
@@ -107,6 +108,7 @@ CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cell
         if (out.count[block] < SLOTS)
           add(block, region);
     }
+  });
   return out;
 }
 

@@ -2,8 +2,10 @@
 #include "adaptive/candidate_field.h"
 #include "adaptive/block_costs.h"
 #include "adaptive/edge_weights.h"
+#include "threads.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -23,21 +25,84 @@ CostUnits costUnits(const AdaptiveParameters& parameters)
   return {static_cast<float>((INT16_MAX - ROUNDING) / largest_sum)};
 }
 
-/// Fills a field block by block.
+/// What all blocks' costs and weights are made from.
+struct FieldSources {
+  const OrganizedPoints& points;
+  const std::vector<TileLevel>& pyramid;
+  const NoiseLaw& noise;
+  const AdaptiveParameters& parameters;
+  std::vector<LabelScale> scales;
+  std::vector<float> ranges;
+  const float* depth; ///< of each point
+
+  FieldSources(const OrganizedPoints& of_points, const TileRegions& regions,
+               const std::vector<TileLevel>& of_pyramid, const NoiseLaw& of_noise,
+               const AdaptiveParameters& of_parameters, unsigned int threads)
+  : points(of_points)
+  , pyramid(of_pyramid)
+  , noise(of_noise)
+  , parameters(of_parameters)
+  , depth(points.z.data())
+  {
+    for (const FittedPlane& plane : regions.planes)
+      scales.push_back(labelScale(plane, noise, parameters));
+    if (points.depth_measure == DepthMeasure::RANGE)
+      measureRanges(threads);
+  }
+
+private:
+  void measureRanges(unsigned int threads)
+  {
+    ranges.resize(points.size());
+    const auto width = static_cast<std::size_t>(points.width);
+    parallelRows(points.height, threads, [&](int row) {
+      const std::size_t first = static_cast<std::size_t>(row) * width;
+      for (std::size_t i = first; i < first + width; ++i)
+        ranges[i] = points.depth(i);
+    });
+    depth = ranges.data();
+  }
+};
+
+/// The active blocks of a part of a field.
+struct FieldPart {
+  std::vector<std::size_t> active;
+  std::vector<std::size_t> first; ///< in data of the part
+  std::vector<BlockRow> data;
+  std::vector<BlockWeights> weight;
+};
+
+/// Fills a part of a field block by block.
 class FieldBuilder {
 public:
-  FieldBuilder(const OrganizedPoints& points, const TileRegions& regions,
-               const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-               const AdaptiveParameters& parameters, CandidateField& field)
-  : block_sums_(pyramid[BLOCK_LEVEL].sums)
-  , costs_(points, regions, pyramid[0], noise, parameters, costUnits(parameters))
-  , weights_(points, noise, parameters, costUnits(parameters))
+  FieldBuilder(const FieldSources& sources, CandidateField& field, FieldPart& part)
+  : block_sums_(sources.pyramid[BLOCK_LEVEL].sums)
+  , costs_(sources.points, sources.scales, sources.pyramid[0], sources.parameters,
+           costUnits(sources.parameters))
+  , weights_(sources.points, sources.depth, sources.noise, sources.parameters,
+             costUnits(sources.parameters))
   , field_(field)
+  , part_(part)
   {}
 
+  /// For so many blocks; pages that are not used cost nothing.
+  void reserve(std::size_t blocks)
+  {
+    part_.weight.reserve(blocks);
+    part_.data.reserve(blocks * static_cast<std::size_t>(SIDE));
+  }
+
+  void addRow(int row)
+  {
+    for (int column = 0; column < field_.blocks.columns; ++column)
+      add({field_.blocks.at(column, row), column * SIDE, row * SIDE,
+           std::min(SIDE, field_.width - column * SIDE),
+           std::min(SIDE, field_.height - row * SIDE)});
+  }
+
+private:
   void add(const BlockPlace& place)
   {
-    field_.number.push_back(CandidateField::SETTLED);
     std::uint8_t& count = field_.blocks.count[place.block];
     std::uint16_t* labels = &field_.blocks.labels[place.block * SLOTS];
     if (count < 2)
@@ -56,29 +121,51 @@ public:
     count = 1;
   }
 
-private:
   void activate(const BlockPlace& place)
   {
     const std::size_t count = field_.blocks.count[place.block];
-    field_.number.back() = field_.active.size();
-    field_.active.push_back(place.block);
-    field_.first.push_back(field_.data.size());
-    field_.data.resize(field_.data.size() + SIDE * count);
-    BlockRow* out = &field_.data[field_.first.back()];
+    part_.active.push_back(place.block);
+    part_.first.push_back(part_.data.size());
+    part_.data.resize(part_.data.size() + SIDE * count);
+    BlockRow* out = &part_.data[part_.first.back()];
     for (std::size_t r = 0; r < SIDE; ++r)
       for (std::size_t s = 0; s < count; ++s)
         (out++)->v = costs_.at(r, s);
-    field_.weight.emplace_back();
+    part_.weight.emplace_back();
     const TileSums& sums = block_sums_[place.block];
     weights_.fill(place, sums.n > 0 ? sums.centroid().norm() : 1.0,
-                  field_.weight.back());
+                  part_.weight.back());
   }
 
   const std::vector<TileSums>& block_sums_;
   BlockCosts costs_;
   EdgeWeights weights_;
   CandidateField& field_;
+  FieldPart& part_;
 };
+
+/// Puts the parts of a field together, in their order.
+void joinParts(std::vector<FieldPart>& parts, CandidateField& field)
+{
+  if (parts.size() == 1) {
+    for (std::size_t a = 0; a < parts[0].active.size(); ++a)
+      field.number[parts[0].active[a]] = a;
+    field.active = std::move(parts[0].active);
+    field.first = std::move(parts[0].first);
+    field.data = std::move(parts[0].data);
+    field.weight = std::move(parts[0].weight);
+    return;
+  }
+  for (const FieldPart& part : parts) {
+    for (std::size_t a = 0; a < part.active.size(); ++a) {
+      field.number[part.active[a]] = field.active.size() + a;
+      field.first.push_back(field.data.size() + part.first[a]);
+    }
+    field.active.insert(field.active.end(), part.active.begin(), part.active.end());
+    field.data.insert(field.data.end(), part.data.begin(), part.data.end());
+    field.weight.insert(field.weight.end(), part.weight.begin(), part.weight.end());
+  }
+}
 
 } // namespace
 
@@ -89,22 +176,24 @@ double unitsPerSigma(const AdaptiveParameters& parameters)
 
 CandidateField buildField(const OrganizedPoints& points, const TileRegions& regions,
                           const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                          const AdaptiveParameters& parameters)
+                          const AdaptiveParameters& parameters, unsigned int threads)
 {
   CandidateField field;
   field.width = points.width;
   field.height = points.height;
   field.blocks = findCandidates(regions, pyramid[0], field.width, field.height,
-                                parameters.support_reach);
-  field.weight.reserve(
-      field.blocks.count.size()); // pages that are not used cost nothing
-  field.data.reserve(field.blocks.count.size() * static_cast<std::size_t>(SIDE));
-  FieldBuilder builder(points, regions, pyramid, noise, parameters, field);
-  for (int row = 0; row < field.blocks.rows; ++row)
-    for (int column = 0; column < field.blocks.columns; ++column)
-      builder.add({field.blocks.at(column, row), column * SIDE, row * SIDE,
-                   std::min(SIDE, field.width - column * SIDE),
-                   std::min(SIDE, field.height - row * SIDE)});
+                                parameters.support_reach, threads);
+  field.number.assign(field.blocks.count.size(), CandidateField::SETTLED);
+  const FieldSources sources(points, regions, pyramid, noise, parameters, threads);
+  const Bands bands(field.blocks.rows, threadCount(threads) > 1 ? 16 : 1);
+  std::vector<FieldPart> parts(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    FieldBuilder builder(sources, field, parts[static_cast<std::size_t>(band)]);
+    builder.reserve(field.blocks.at(0, bands.begin(band + 1) - bands.begin(band)));
+    for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
+      builder.addRow(row);
+  });
+  joinParts(parts, field);
   return field;
 }
 

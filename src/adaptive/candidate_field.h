@@ -35,7 +35,8 @@ struct CandidateBlocks {
 /// "No plane" and the planes with cells in a block or at most so many cells away from it,
 /// the nearest first. O(blocks * reach^2)
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
-                               int width, int height, int reach);
+                               int width, int height, int reach,
+                               unsigned int threads = 1);
 
 /// A row of a block: eight numbers, added and compared by single instructions wherever the
 /// compiler knows some (an extension of g++ and clang++).
@@ -87,15 +88,18 @@ double unitsPerSigma(const AdaptiveParameters& parameters);
 
 CandidateField buildField(const OrganizedPoints& points, const TileRegions& regions,
                           const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                          const AdaptiveParameters& parameters);
+                          const AdaptiveParameters& parameters,
+                          unsigned int threads = 1);
 
 /// Min-sum loopy belief propagation; label per site, 0 = none.
 ///
 /// Each of the passes goes down the image and up again, a row at a time: messages to the next
 /// row are used at once, so they cross the image in one pass; those within a row move by
 /// one point a pass. A Potts message needs the least belief only: O(sites * labels of a
-/// block) an iteration. Settled blocks send what they are sure of, once.
+/// block) an iteration. Settled blocks send what they are sure of, once. Threads share the
+/// rows, each follows the one to its left.
 std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
-                                            const OrganizedPoints& points, int passes);
+                                            const OrganizedPoints& points, int passes,
+                                            unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

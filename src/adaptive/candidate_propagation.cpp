@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/candidate_field.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <array>
@@ -70,28 +71,34 @@ struct Place {
 /// Passes over the image, with the messages that every point has received.
 class Passes {
 public:
-  explicit Passes(const CandidateField& field)
+  Passes(const CandidateField& field, unsigned int threads)
   : f_(field)
+  , threads_(threads)
   , blocks_(field.blocks)
   , received_(field.data.size())
   , places_(field.active.size())
   , band_(static_cast<std::size_t>(field.blocks.rows) + 1, 0)
   {
-    for (std::size_t a = 0; a < places_.size(); ++a)
-      settleIn(a);
+    for (const std::size_t block : field.active)
+      ++band_[block / static_cast<std::size_t>(blocks_.columns) + 1];
     for (std::size_t row = 1; row < band_.size(); ++row)
       band_[row] += band_[row - 1];
+    parallelRows(blocks_.rows, threads, [&](int row) {
+      for (std::size_t a = firstOf(row); a < firstOf(row + 1); ++a)
+        settleIn(a, row);
+    });
+    splitRows();
   }
 
   /// One pass: messages within each row, and on to the next row.
   void run(bool downwards)
   {
-    for (int k = 0; k < f_.height; ++k) {
-      const int y = downwards ? k : f_.height - 1 - k;
-      const std::size_t band = static_cast<std::size_t>(y) / SIDE;
-      for (std::size_t a = band_[band]; a < band_[band + 1]; ++a)
+    staggeredSteps(strips_, f_.height, threads_, [&](int strip, int step) {
+      const int y = downwards ? step : f_.height - 1 - step;
+      const int row = y / static_cast<int>(SIDE);
+      for (std::size_t a = firstOf(row, strip); a < firstOf(row, strip + 1); ++a)
         sendFrom(a, static_cast<std::size_t>(y) % SIDE, downwards ? BELOW : ABOVE);
-    }
+    });
   }
 
   /// Data costs plus all messages of a row of an active block.
@@ -107,14 +114,47 @@ public:
   }
 
 private:
+  /// Number of the first active block of a row of blocks, or of those after it.
+  std::size_t firstOf(int row) const { return band_[static_cast<std::size_t>(row)]; }
+  /// The same of a strip of that row.
+  std::size_t firstOf(int row, int strip) const
+  {
+    return first_in_strip_[static_cast<std::size_t>(row * (strips_ + 1) + strip)];
+  }
+
+  /// Upright strips with about as many active blocks each, one for each thread.
+  void splitRows()
+  {
+    const auto columns = static_cast<std::size_t>(blocks_.columns);
+    std::vector<std::size_t> left_of(columns + 1, 0);
+    for (const std::size_t block : f_.active)
+      ++left_of[block % columns + 1];
+    for (std::size_t c = 0; c < columns; ++c)
+      left_of[c + 1] += left_of[c];
+    strips_ = Bands(blocks_.columns, threadCount(threads_)).count;
+    std::vector<std::size_t> border;
+    for (int strip = 0; strip < strips_; ++strip) {
+      const std::size_t wanted = f_.active.size() * static_cast<std::size_t>(strip) /
+                                 static_cast<std::size_t>(strips_);
+      border.push_back(static_cast<std::size_t>(
+          std::lower_bound(left_of.begin(), left_of.end(), wanted) - left_of.begin()));
+    }
+    for (std::size_t row = 0; row + 1 < band_.size(); ++row) {
+      const auto from = f_.active.begin() + static_cast<std::ptrdiff_t>(band_[row]);
+      const auto to = f_.active.begin() + static_cast<std::ptrdiff_t>(band_[row + 1]);
+      for (const std::size_t column : border)
+        first_in_strip_.push_back(static_cast<std::size_t>(
+            std::lower_bound(from, to, row * columns + column) - f_.active.begin()));
+      first_in_strip_.push_back(band_[row + 1]);
+    }
+  }
+
   /// Finds the neighbours of a block, and what the settled ones among them say.
-  void settleIn(std::size_t a)
+  void settleIn(std::size_t a, int row)
   {
     const std::size_t block = f_.active[a];
     const int column =
         static_cast<int>(block % static_cast<std::size_t>(blocks_.columns));
-    const int row = static_cast<int>(block / static_cast<std::size_t>(blocks_.columns));
-    ++band_[static_cast<std::size_t>(row) + 1];
     Place& place = places_[a];
     place.count = blocks_.count[block];
     place.first = f_.first[a];
@@ -264,10 +304,13 @@ private:
   }
 
   const CandidateField& f_;
+  unsigned int threads_;
   const CandidateBlocks& blocks_;
   std::vector<Messages> received_;
   std::vector<Place> places_;     ///< of the active blocks
   std::vector<std::size_t> band_; ///< first active block of each row of blocks
+  int strips_ = 1;
+  std::vector<std::size_t> first_in_strip_; ///< by row of blocks and strip
 };
 
 /// Labels of a row of an active block: those of the least beliefs.
@@ -297,19 +340,19 @@ public:
   , width_(static_cast<std::size_t>(field.width))
   {}
 
-  void write()
+  /// The labels of a row of blocks.
+  void writeRow(int row)
   {
-    for (int row = 0; row < f_.blocks.rows; ++row)
-      for (int column = 0; column < f_.blocks.columns;) {
-        if (const std::size_t block = f_.blocks.at(column, row); isActive(block)) {
-          writeActive(block, column, row);
-          ++column;
-          continue;
-        }
-        const int end = endOfSettled(column, row);
-        writeSettled(column, end, row);
-        column = end;
+    for (int column = 0; column < f_.blocks.columns;) {
+      if (const std::size_t block = f_.blocks.at(column, row); isActive(block)) {
+        writeActive(block, column, row);
+        ++column;
+        continue;
       }
+      const int end = endOfSettled(column, row);
+      writeSettled(column, end, row);
+      column = end;
+    }
   }
 
   std::vector<std::uint16_t> labels;
@@ -375,15 +418,15 @@ private:
 } // namespace
 
 std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
-                                            const OrganizedPoints& points, int passes)
+                                            const OrganizedPoints& points, int passes,
+                                            unsigned int threads)
 {
-  Passes propagation(field);
-  for (int t = 0; t < passes; ++t) {
-    propagation.run(true);
-    propagation.run(false);
-  }
+  Passes propagation(field, threads);
+  for (int t = 0; t < passes; ++t)
+    for (const bool downwards : {true, false})
+      propagation.run(downwards);
   LabelWriter writer(field, points, propagation);
-  writer.write();
+  parallelRows(field.blocks.rows, threads, [&](int row) { writer.writeRow(row); });
   return std::move(writer.labels);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/cell_labelling.h"
 #include "adaptive/label_scale.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <array>
@@ -27,18 +28,20 @@ public:
       scales_.push_back(labelScale(plane, noise, parameters));
   }
 
-  void sweepDown()
+  /// Down the image from left to right and up again from right to left, in as many upright
+  /// strips as there are threads: as if there were one.
+  void sweep(unsigned int threads)
   {
-    for (int r = 0; r < cells_.rows; ++r)
-      for (int c = 0; c < cells_.columns; ++c)
-        visit(c, r);
-  }
-
-  void sweepUp()
-  {
-    for (int r = cells_.rows - 1; r >= 0; --r)
-      for (int c = cells_.columns - 1; c >= 0; --c)
-        visit(c, r);
+    const Bands strips(cells_.columns, threadCount(threads));
+    staggeredSteps(strips.count, cells_.rows, threads, [&](int strip, int row) {
+      for (int c = strips.begin(strip); c < strips.begin(strip + 1); ++c)
+        visit(c, row);
+    });
+    staggeredSteps(strips.count, cells_.rows, threads, [&](int step_strip, int step) {
+      const int strip = strips.count - 1 - step_strip;
+      for (int c = strips.begin(strip + 1) - 1; c >= strips.begin(strip); --c)
+        visit(c, cells_.rows - 1 - step);
+    });
   }
 
   const std::vector<int>& labels() const { return labels_; }
@@ -107,19 +110,37 @@ private:
   std::vector<int> labels_;
 };
 
+/// Sums of the cells of each label, band by band of the image.
+std::vector<TileSums> sumLabels(const TileLevel& cells, const std::vector<int>& labels,
+                                std::size_t count, unsigned int threads)
+{
+  const Bands bands(cells.rows, 4);
+  std::vector<std::vector<TileSums>> sums(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<TileSums>& of_band = sums[static_cast<std::size_t>(band)];
+    of_band.resize(count);
+    for (std::size_t i = cells.at(0, bands.begin(band));
+         i < cells.at(0, bands.begin(band + 1)); ++i)
+      if (labels[i] >= 0)
+        of_band[static_cast<std::size_t>(labels[i])] += cells.sums[i];
+  });
+  for (std::size_t band = 1; band < sums.size(); ++band)
+    for (std::size_t k = 0; k < count; ++k)
+      sums[0][k] += sums[band][k];
+  return std::move(sums[0]);
+}
+
 } // namespace
 
 TileRegions labelCells(const TileRegions& regions, const TileLevel& cells,
-                       const NoiseLaw& noise, const AdaptiveParameters& parameters)
+                       const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                       unsigned int threads)
 {
   CellField field(regions, cells, noise, parameters);
-  field.sweepDown();
-  field.sweepUp();
+  field.sweep(threads);
 
-  std::vector<TileSums> sums(regions.planes.size());
-  for (std::size_t i = 0; i < cells.sums.size(); ++i)
-    if (field.labels()[i] >= 0)
-      sums[static_cast<std::size_t>(field.labels()[i])] += cells.sums[i];
+  const std::vector<TileSums> sums =
+      sumLabels(cells, field.labels(), regions.planes.size(), threads);
   TileRegions out;
   std::vector<int> id(sums.size(), NONE);
   for (std::size_t k = 0; k < sums.size(); ++k) {

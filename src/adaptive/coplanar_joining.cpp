@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -148,15 +149,15 @@ private:
 
 } // namespace
 
-TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points,
+TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
                          const TileLevel& cells, const NoiseLaw& noise,
                          const AdaptiveParameters& parameters)
 {
   constexpr double LEAST_COSINE = 0.9; // of the normals: spares most of the fits
   constexpr double BEHIND = 3.0;       // sigmas
   const double limit = parameters.join_tolerance * parameters.join_tolerance;
-  Regions regions(parts);
   const Gap gap(parts, points, cells, parameters);
+  Regions regions(std::move(parts));
   const auto cost = [&](int a, int b) {
     return dissimilarity(regions.plane(a), regions.plane(b),
                          fitSums(regions.sums(a) + regions.sums(b)), noise, parameters);
@@ -187,9 +188,9 @@ TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points
     const double tolerance =
         BEHIND * std::sqrt(allowedVariance(joint, noise, parameters));
     if (gap.mayHidePlane(pair.a, pair.b, joint, tolerance))
-      regions.merge(a, b);
+      regions.merge(a, b, joint);
   }
-  return collect(regions, parts.cell_region, 0.5 * parameters.min_points);
+  return collect(regions, std::move(parts.cell_region), 0.5 * parameters.min_points);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/curved_surfaces.h"
 #include "adaptive/surface_bend.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,10 +38,14 @@ public:
   , sine_(std::sin(sharpest_crease))
   {}
 
-  void look(const LabelRuns& image)
+  /// Looks across the borders of some rows' runs, half open.
+  void look(const LabelRuns& image, int first_row, int last_row)
   {
     const std::size_t width = image.width;
-    for (const LabelRun& run : image.runs) {
+    const std::size_t last = image.rows[static_cast<std::size_t>(last_row)];
+    for (std::size_t r = image.rows[static_cast<std::size_t>(first_row)]; r < last;
+         ++r) {
+      const LabelRun& run = image.runs[r];
       if (run.label == 0)
         continue;
       const std::size_t row_end = (run.begin / width + 1) * width;
@@ -53,6 +58,17 @@ public:
            (i = findOther(run.label, below, i, run.end)) < run.end; ++i)
         look(run.label, i, i + REACH * width);
     }
+  }
+
+  BorderFinder& operator+=(const BorderFinder& other)
+  {
+    for (const auto& [pair, border] : other.borders) {
+      borders[pair].length += border.length;
+      borders[pair].step += border.step;
+    }
+    for (std::size_t k = 0; k < goes_on.size(); ++k)
+      goes_on[k] += other.goes_on[k];
+    return *this;
   }
 
   Borders borders;
@@ -166,14 +182,13 @@ class CurvedSurfaces {
 public:
   CurvedSurfaces(const OrganizedPoints& points, const LabelledPoints& image,
                  const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                 const FittedRegions& regions)
+                 const FittedRegions& regions, unsigned int threads)
   : parameters_(parameters)
   , regions_(regions)
   , largest_(parameters.fan_share * static_cast<double>(points.countValid()))
-  , bends_(measureBends(points, image.labels, regions.planes))
+  , bends_(measureBends(points, image.labels, regions.planes, threads))
   {
-    BorderFinder finder(points, regions, image.labels, parameters.fan_angle * DEGREE);
-    finder.look(image.runs);
+    BorderFinder finder = findBorders(points, image, threads);
     fan_ = fanSizes(finder.borders, regions, largest_, noise, parameters);
     wide_fan_ = fanSizes(finder.borders, regions, WIDE * largest_, noise, parameters);
     goes_on_ = std::move(finder.goes_on);
@@ -187,6 +202,22 @@ public:
   }
 
 private:
+  BorderFinder findBorders(const OrganizedPoints& points, const LabelledPoints& image,
+                           unsigned int threads) const
+  {
+    const Bands bands(points.height, 4);
+    std::vector<BorderFinder> parts(
+        static_cast<std::size_t>(bands.count),
+        {points, regions_, image.labels, parameters_.fan_angle * DEGREE});
+    parallelParts(bands.count, threads, [&](int band) {
+      parts[static_cast<std::size_t>(band)].look(image.runs, bands.begin(band),
+                                                 bands.begin(band + 1));
+    });
+    for (std::size_t part = 1; part < parts.size(); ++part)
+      parts[0] += parts[part];
+    return std::move(parts[0]);
+  }
+
   /// A turn counts for as much as the bend stands out of the noise: for all of it where
   /// the quadric explains everything, for a third where that is a tenth of the variance.
   static double clearTurn(const Bend& bend)
@@ -229,9 +260,9 @@ private:
 
 void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
                         const AdaptiveParameters& parameters, FittedRegions& regions,
-                        LabelledPoints& image)
+                        LabelledPoints& image, unsigned int threads)
 {
-  const CurvedSurfaces curved(points, image, noise, parameters, regions);
+  const CurvedSurfaces curved(points, image, noise, parameters, regions, threads);
   std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
   FittedRegions kept;
   for (std::size_t k = 0; k < regions.planes.size(); ++k)
@@ -239,7 +270,7 @@ void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
       kept.add(regions.planes[k], regions.sums[k]);
       id[k + 1] = static_cast<std::uint16_t>(kept.planes.size());
     }
-  image.renumber(id);
+  image.renumber(id, threads);
   regions = std::move(kept);
 }
 

@@ -10,6 +10,6 @@ namespace pcl_mrf_planes::adaptive {
  * O(points) */
 void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
                         const AdaptiveParameters& parameters, FittedRegions& regions,
-                        LabelledPoints& image);
+                        LabelledPoints& image, unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -9,18 +9,15 @@ constexpr int SIDE = CandidateBlocks::SIDE;
 
 } // namespace
 
-EdgeWeights::EdgeWeights(const OrganizedPoints& points, const NoiseLaw& noise,
-                         const AdaptiveParameters& parameters, CostUnits units)
+EdgeWeights::EdgeWeights(const OrganizedPoints& points, const float* depth,
+                         const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                         CostUnits units)
 : points_(points)
 , noise_(noise)
 , parameters_(parameters)
 , price_(static_cast<float>(parameters.label_change) * units.per_sigma)
-{
-  if (points.depth_measure == DepthMeasure::RANGE)
-    for (std::size_t i = 0; i < points.size(); ++i)
-      ranges_.push_back(points.depth(i));
-  depth_ = ranges_.empty() ? points.z.data() : ranges_.data();
-}
+, depth_(depth)
+{}
 
 void EdgeWeights::fill(const BlockPlace& place, double range, BlockWeights& out)
 {

@@ -3,8 +3,6 @@
 
 #include "adaptive/block_place.h"
 
-#include <vector>
-
 namespace pcl_mrf_planes::adaptive {
 
 /// One over the step in depth at which half the price of a change is left, at such a range.
@@ -27,7 +25,8 @@ inline float priceShare(float step, float least)
  * the step in depth down to a share of itself, so that labels change where depth does. */
 class EdgeWeights {
 public:
-  EdgeWeights(const OrganizedPoints& points, const NoiseLaw& noise,
+  /** \param[in] depth of each point, as the cloud measures it */
+  EdgeWeights(const OrganizedPoints& points, const float* depth, const NoiseLaw& noise,
               const AdaptiveParameters& parameters, CostUnits units);
 
   /** \brief Weights of all edges of a block and of those to the blocks above and to the
@@ -44,8 +43,7 @@ private:
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
   float price_; ///< of a change where there is no step
-  std::vector<float> ranges_;
-  const float* depth_ = nullptr;
+  const float* depth_;
   float per_step_ = 0.0f; ///< of the block at hand
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/noise_estimation.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,8 @@ struct Sample {
   double z, rms;
 };
 
-double percentile(std::vector<double> v, double p)
+/// Orders the numbers as it needs.
+double percentile(std::vector<double>& v, double p)
 {
   if (v.empty())
     return 0;
@@ -134,40 +136,63 @@ double meanVariance(const Quarters& planes, double known_growth, const NoiseLaw&
   return sum / static_cast<double>(planes.size());
 }
 
-/// Growth of the rms distance from a tile's quarters to the tile: one ratio for each tile
-/// whose quarters are all within the noise.
+/// A row of tiles, of which every so many-th counts.
+struct TileRow {
+  int number, step;
+};
+
+/// One ratio for each tile of a row whose quarters are all within the noise: the rms distance
+/// of the tile over that of its quarters.
+void addGrowthRatios(const TileLevel& level, const TileLevel& below, TileRow row,
+                     double known_growth, const NoiseLaw& noise,
+                     const AdaptiveParameters& parameters, std::vector<double>& ratios)
+{
+  for (int c = 0; c < level.columns; c += row.step) {
+    const FittedPlane& parent = level.planes[level.at(c, row.number)];
+    if (parent.n < 4 || 2 * row.number + 1 >= below.rows || 2 * c + 1 >= below.columns)
+      continue;
+    const double variance =
+        meanVariance(quartersOf(below, c, row.number, parameters), known_growth, noise);
+    if (variance >= 0)
+      ratios.push_back(
+          unbiasedRms(parent) /
+          std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
+  }
+}
+
+/// Growth of the rms distance from tiles' quarters to the tiles.
 std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
                                  double known_growth, const NoiseLaw& noise,
-                                 const AdaptiveParameters& parameters)
+                                 const AdaptiveParameters& parameters,
+                                 unsigned int threads)
 {
   // The smallest tiles have no planes yet; some of them tell enough.
   const int step = below.planes.empty() ? 3 : 1;
+  const Bands bands((level.rows + step - 1) / step, 4);
+  std::vector<std::vector<double>> parts(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<double>& ratios = parts[static_cast<std::size_t>(band)];
+    const int end = std::min(level.rows, step * bands.begin(band + 1));
+    for (int r = step * bands.begin(band); r < end; r += step)
+      addGrowthRatios(level, below, {r, step}, known_growth, noise, parameters, ratios);
+  });
   std::vector<double> ratios;
-  for (int r = 0; r < level.rows; r += step)
-    for (int c = 0; c < level.columns; c += step) {
-      const FittedPlane& parent = level.planes[level.at(c, r)];
-      if (parent.n < 4 || 2 * r + 1 >= below.rows || 2 * c + 1 >= below.columns)
-        continue;
-      const double variance =
-          meanVariance(quartersOf(below, c, r, parameters), known_growth, noise);
-      if (variance >= 0)
-        ratios.push_back(
-            unbiasedRms(parent) /
-            std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
-    }
+  for (const std::vector<double>& part : parts)
+    ratios.insert(ratios.end(), part.begin(), part.end());
   return ratios;
 }
 
 /// Growth of sigma with the level, 1 at the base level, and for planes beyond all levels.
 void estimateGrowth(const std::vector<TileLevel>& pyramid,
-                    const AdaptiveParameters& parameters, NoiseLaw& noise)
+                    const AdaptiveParameters& parameters, unsigned int threads,
+                    NoiseLaw& noise)
 {
   constexpr std::size_t FEWEST = 12; // ratios for a percentile
   std::vector<double> step(pyramid.size(), 1.0);
   double cumulated = 1;
   for (std::size_t l = 1; l < pyramid.size(); ++l) {
-    const std::vector<double> ratios =
-        growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise, parameters);
+    std::vector<double> ratios =
+        growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise, parameters, threads);
     if (ratios.size() >= FEWEST)
       step[l] = std::clamp(percentile(ratios, parameters.growth_percentile), 1.0,
                            parameters.max_growth);
@@ -237,7 +262,8 @@ private:
 /// percentile of the tiles near, so that edges do not count.
 std::vector<double> localFactors(const TileLevel& level, const TileLevel& squares,
                                  const NoiseLaw& noise,
-                                 const AdaptiveParameters& parameters)
+                                 const AdaptiveParameters& parameters,
+                                 unsigned int threads)
 {
   constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
@@ -246,8 +272,8 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
   const TileCounts quiet(
       level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
   std::vector<double> factors(squares.at(0, squares.rows), 1.0);
-  std::vector<double> around;
-  for (int r = 0; r < squares.rows; ++r)
+  parallelRows(squares.rows, threads, [&](int r) {
+    std::vector<double> around;
     for (int c = 0; c < squares.columns; ++c) {
       const TileWindow window = {
           std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
@@ -263,13 +289,14 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
       factors[squares.at(c, r)] = std::clamp(
           percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
     }
+  });
   return factors;
 }
 
 /// Pools the noise of the level below, and tells it to the planes.
-void poolNoise(const TileLevel& below, TileLevel& level)
+void poolNoise(const TileLevel& below, TileLevel& level, unsigned int threads)
 {
-  for (int r = 0; r < level.rows; ++r)
+  parallelRows(level.rows, threads, [&](int r) {
     for (int c = 0; c < level.columns; ++c) {
       TileSums& sums = level.sums[level.at(c, r)];
       if (sums.n < 1)
@@ -280,12 +307,13 @@ void poolNoise(const TileLevel& below, TileLevel& level)
           sums.noise += below.sums[below.at(k, j)].noise;
       level.planes[level.at(c, r)].noise = sums.noise / sums.n;
     }
+  });
 }
 
 } // namespace
 
 NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
-                       const AdaptiveParameters& parameters)
+                       const AdaptiveParameters& parameters, unsigned int threads)
 {
   constexpr std::size_t ENOUGH = 2000; // samples
   NoiseLaw noise;
@@ -298,7 +326,7 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
     if (const FittedPlane& p = planes[i]; p.n > 3)
       samples.push_back({p.centroid.norm(), unbiasedRms(p)});
   fitDepthLaw(std::move(samples), parameters.noise_percentile, noise);
-  estimateGrowth(pyramid, parameters, noise);
+  estimateGrowth(pyramid, parameters, threads, noise);
   return noise;
 }
 
@@ -315,7 +343,7 @@ NoiseLaw statedNoise(const NoiseModel& stated, const std::vector<TileLevel>& pyr
 }
 
 void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                      const AdaptiveParameters& parameters)
+                      const AdaptiveParameters& parameters, unsigned int threads)
 {
   // Squares of 2x2 tiles of the base level are the tiles of the level above, if there is
   // one.
@@ -323,9 +351,9 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
   squares.columns = (pyramid[BASE].columns + 1) / 2;
   squares.rows = (pyramid[BASE].rows + 1) / 2;
   const std::vector<double> factors =
-      localFactors(pyramid[BASE], squares, noise, parameters);
+      localFactors(pyramid[BASE], squares, noise, parameters, threads);
   TileLevel& cells = pyramid[0];
-  for (int r = 0; r < cells.rows; ++r)
+  parallelRows(cells.rows, threads, [&](int r) {
     for (int c = 0; c < cells.columns; ++c) {
       TileSums& sums = cells.sums[cells.at(c, r)];
       if (sums.n < 1)
@@ -335,8 +363,9 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
       const double sigma = noise.small(range) * factors[squares.at(c / 4, r / 4)];
       sums.noise = sums.n * sigma * sigma;
     }
+  });
   for (std::size_t l = 1; l < pyramid.size(); ++l)
-    poolNoise(pyramid[l - 1], pyramid[l]);
+    poolNoise(pyramid[l - 1], pyramid[l], threads);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -38,7 +38,7 @@ inline double incidenceFactor(const FittedPlane& plane)
 
 /** \brief Estimate the noise from the tiles themselves, robust to tiles on edges. */
 NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
-                       const AdaptiveParameters& parameters);
+                       const AdaptiveParameters& parameters, unsigned int threads = 1);
 
 /** \brief The noise of a sensor that the user names: the same for planes of all sizes. */
 NoiseLaw statedNoise(const NoiseModel& stated, const std::vector<TileLevel>& pyramid,
@@ -47,6 +47,6 @@ NoiseLaw statedNoise(const NoiseModel& stated, const std::vector<TileLevel>& pyr
 /** \brief Fill in TileSums::noise (and FittedPlane::noise) of all tiles: the model's variance,
  * raised where the tiles around all show more (materials, incidence). */
 void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                      const AdaptiveParameters& parameters);
+                      const AdaptiveParameters& parameters, unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

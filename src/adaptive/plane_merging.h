@@ -33,17 +33,17 @@ bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
 /** \brief Largest tiles that one plane fits: from the top of the pyramid, split where
  * the residual exceeds the noise of that extent. */
 TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                        const AdaptiveParameters& parameters);
+                        const AdaptiveParameters& parameters, unsigned int threads = 1);
 
 /** \brief Agglomerative merging of touching regions on pooled sums, the most alike first,
  * while the deviation of the smaller part stays within the noise. O(n log n). */
-TileRegions mergeTouching(const TileRegions& tiles,
-                          const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                          const AdaptiveParameters& parameters);
+TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyramid,
+                          const NoiseLaw& noise, const AdaptiveParameters& parameters,
+                          unsigned int threads = 1);
 
 /** \brief Join coplanar parts with no view behind the plane between them: what separates
  * them stands in front, so the surface may well go on behind it. */
-TileRegions joinCoplanar(const TileRegions& parts, const OrganizedPoints& points,
+TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
                          const TileLevel& cells, const NoiseLaw& noise,
                          const AdaptiveParameters& parameters);
 

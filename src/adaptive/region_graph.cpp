@@ -14,7 +14,7 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
   return std::max(0.0, growth) / std::min(a.n, b.n) / allowed;
 }
 
-TileRegions collect(Regions& regions, const std::vector<int>& cell_region, double least)
+TileRegions collect(Regions& regions, std::vector<int> cell_region, double least)
 {
   TileRegions out;
   std::vector<int> id(static_cast<std::size_t>(regions.size()), -1);
@@ -24,11 +24,10 @@ TileRegions collect(Regions& regions, const std::vector<int>& cell_region, doubl
       out.planes.push_back(regions.plane(i));
       out.sums.push_back(regions.sums(i));
     }
-  out.cell_region.resize(cell_region.size());
-  for (std::size_t c = 0; c < cell_region.size(); ++c)
-    out.cell_region[c] =
-        cell_region[c] < 0 ? -1
-                           : id[static_cast<std::size_t>(regions.find(cell_region[c]))];
+  for (int& region : cell_region)
+    if (region >= 0)
+      region = id[static_cast<std::size_t>(regions.find(region))];
+  out.cell_region = std::move(cell_region);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pcl_mrf_planes::adaptive {
@@ -13,13 +14,13 @@ namespace pcl_mrf_planes::adaptive {
 /// Regions that merge: a union-find with the pooled sums of each set.
 class Regions {
 public:
-  explicit Regions(const TileRegions& tiles)
-  : sums_(tiles.sums)
-  , planes_(tiles.planes)
-  , parent_(tiles.sums.size())
-  , tiles_(tiles.sums.size(), 1)
-  , lists_(tiles.sums.size())
-  , marks_(tiles.sums.size(), 0)
+  explicit Regions(FittedRegions tiles)
+  : sums_(std::move(tiles.sums))
+  , planes_(std::move(tiles.planes))
+  , parent_(sums_.size())
+  , tiles_(sums_.size(), 1)
+  , lists_(sums_.size())
+  , marks_(sums_.size(), 0)
   {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
@@ -41,35 +42,36 @@ public:
   }
 
   /// Calls visit(b) for the neighbours of a root, as roots, each once.
+  /// \param[in] mark a number that no walk here had before
   template <typename Visit>
-  void forEachNeighbour(int a, const Visit& visit)
+  void forEachNeighbour(int a, int mark, const Visit& visit)
   {
-    ++mark_;
-    at(marks_, a) = mark_;
+    at(marks_, a) = mark;
     List& list = at(lists_, a);
     int before = NO_LINK;
     for (int k = list.first; k != NO_LINK; k = at(links_, k).next) {
       Link& link = at(links_, k);
       link.to = find(link.to);
-      if (at(marks_, link.to) == mark_) { // known: leaves the list
+      if (at(marks_, link.to) == mark) { // known: leaves the list
         (before == NO_LINK ? list.first : at(links_, before).next) = link.next;
         if (link.next == NO_LINK)
           list.last = before;
         continue;
       }
-      at(marks_, link.to) = mark_;
+      at(marks_, link.to) = mark;
       before = k;
       visit(link.to);
     }
   }
 
-  int merge(int a, int b)
+  /// \param[in] joint plane of the sums of both
+  int merge(int a, int b, const FittedPlane& joint)
   {
     if (tiles(a) < tiles(b))
       std::swap(a, b);
     at(parent_, b) = a;
     at(sums_, a) += at(sums_, b);
-    at(planes_, a) = fitSums(at(sums_, a));
+    at(planes_, a) = joint;
     at(tiles_, a) += at(tiles_, b);
     List& to = at(lists_, a);
     const List& from = at(lists_, b);
@@ -120,7 +122,6 @@ private:
   std::vector<List> lists_; ///< neighbours of each set
   std::vector<Link> links_;
   std::vector<int> marks_; ///< sets that the walk of this mark has met
-  int mark_ = 0;
 };
 
 /// A pair of regions to merge, as they were when it was looked at.
@@ -144,7 +145,6 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
                      const AdaptiveParameters& p);
 
 /// The sets that hold at least so many points, numbered in order.
-TileRegions collect(Regions& regions, const std::vector<int>& cell_region,
-                    double least);
+TileRegions collect(Regions& regions, std::vector<int> cell_region, double least);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/region_refinement.h"
 #include "label_runs.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cstring>
@@ -28,18 +29,21 @@ public:
             const std::vector<std::uint16_t>& labels, std::size_t count)
   : sums(count)
   , points_(points)
+  , cells_(cells)
   , labels_(labels)
+  {}
+
+  void addCells(int row)
   {
-    for (int r = 0; r < cells.rows; ++r)
-      for (int c = 0; c < cells.columns; ++c) {
-        const std::size_t cell = cells.at(c, r);
-        if (cells.sums[cell].n < 1)
-          continue;
-        if (isWhole(c, r))
-          sums[labels[firstPoint(c, r)]] += cells.sums[cell];
-        else
-          addPoints(c, r, cells.sums[cell].noise / cells.sums[cell].n);
-      }
+    for (int c = 0; c < cells_.columns; ++c) {
+      const TileSums& cell = cells_.sums[cells_.at(c, row)];
+      if (cell.n < 1)
+        continue;
+      if (isWhole(c, row))
+        sums[labels_[firstPoint(c, row)]] += cell;
+      else
+        addPoints(c, row, cell.noise / cell.n);
+    }
   }
 
   std::vector<TileSums> sums;
@@ -87,39 +91,63 @@ private:
   }
 
   const OrganizedPoints& points_;
+  const TileLevel& cells_;
   const std::vector<std::uint16_t>& labels_;
 };
 
+std::vector<TileSums> sumLabels(const OrganizedPoints& points, const TileLevel& cells,
+                                const std::vector<std::uint16_t>& labels,
+                                std::size_t count, unsigned int threads)
+{
+  const Bands bands(cells.rows, 4);
+  std::vector<LabelSums> parts(static_cast<std::size_t>(bands.count),
+                               LabelSums(points, cells, labels, count));
+  parallelParts(bands.count, threads, [&](int band) {
+    for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
+      parts[static_cast<std::size_t>(band)].addCells(row);
+  });
+  for (std::size_t part = 1; part < parts.size(); ++part)
+    for (std::size_t k = 0; k < count; ++k)
+      parts[0].sums[k] += parts[part].sums[k];
+  return std::move(parts[0].sums);
+}
+
 } // namespace
 
-void LabelledPoints::renumber(const std::vector<std::uint16_t>& id)
+void LabelledPoints::renumber(const std::vector<std::uint16_t>& id,
+                              unsigned int threads)
 {
-  for (LabelRun& run : runs.runs) {
-    if (id[run.label] != run.label)
-      fillRun(run, id[run.label], labels);
-    run.label = id[run.label];
-  }
+  parallelRows(static_cast<int>(runs.rows.size()) - 1, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = runs.rows[r]; k < runs.rows[r + 1]; ++k) {
+      LabelRun& run = runs.runs[k];
+      if (id[run.label] != run.label)
+        fillRun(run, id[run.label], labels);
+      run.label = id[run.label];
+    }
+  });
 }
 
 FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
                             const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                            LabelledPoints& image)
+                            LabelledPoints& image, unsigned int threads)
 {
   dropSmallParts(parameters.min_points, image);
   std::size_t count = 1;
   for (const LabelRun& run : image.runs.runs)
     count = std::max<std::size_t>(count, run.label + 1U);
-  const LabelSums found(points, cells, image.labels, count);
+  const std::vector<TileSums> sums =
+      sumLabels(points, cells, image.labels, count, threads);
   FittedRegions out;
   std::vector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
-    const FittedPlane plane = fitSums(found.sums[k]);
+    const FittedPlane plane = fitSums(sums[k]);
     if (!isPlane(plane, parameters.min_points, noise, parameters))
       continue;
-    out.add(plane, found.sums[k]);
+    out.add(plane, sums[k]);
     id[k] = static_cast<std::uint16_t>(out.planes.size());
   }
-  image.renumber(id);
+  image.renumber(id, threads);
   return out;
 }
 

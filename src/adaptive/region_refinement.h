@@ -11,13 +11,14 @@ struct LabelledPoints {
   std::vector<std::uint16_t> labels;
   LabelRuns runs;
 
-  explicit LabelledPoints(std::vector<std::uint16_t> of_points, int width)
+  explicit LabelledPoints(std::vector<std::uint16_t> of_points, int width,
+                          unsigned int threads = 1)
   : labels(std::move(of_points))
-  , runs(findRuns(labels, width, 0))
+  , runs(findRuns(labels, width, 0, threads))
   {}
 
   /** \brief Give every label its new number, id[label]; 0 takes it away. */
-  void renumber(const std::vector<std::uint16_t>& id);
+  void renumber(const std::vector<std::uint16_t>& id, unsigned int threads = 1);
 };
 
 /** \brief After labelling: small components of a label lose it, planes are fitted again
@@ -25,6 +26,6 @@ struct LabelledPoints {
  * Labels are renumbered 1..planes.size(). */
 FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
                             const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                            LabelledPoints& image);
+                            LabelledPoints& image, unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

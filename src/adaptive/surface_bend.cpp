@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/surface_bend.h"
+#include "threads.h"
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -35,6 +36,16 @@ public:
     for (std::size_t k = 0; k < UNKNOWNS; ++k)
       residual_[k] += r * terms[k];
     squared_ += r * r;
+  }
+
+  QuadricSums& operator+=(const QuadricSums& other)
+  {
+    for (std::size_t k = 0; k < MOMENTS; ++k)
+      moment_[k] += other.moment_[k];
+    for (std::size_t k = 0; k < UNKNOWNS; ++k)
+      residual_[k] += other.residual_[k];
+    squared_ += other.squared_;
+    return *this;
   }
 
   Bend bend() const
@@ -92,15 +103,14 @@ private:
 
 std::vector<Bend> measureBends(const OrganizedPoints& points,
                                const std::vector<std::uint16_t>& labels,
-                               const std::vector<FittedPlane>& planes)
+                               const std::vector<FittedPlane>& planes,
+                               unsigned int threads)
 {
   // Of every 4th point every 4th, or of those every 4th, is enough for a large region.
   constexpr double MANY = 4000;
   constexpr double VERY_MANY = 16000;
-  std::vector<QuadricSums> sums(planes.begin(), planes.end());
   const auto w = static_cast<std::size_t>(points.width);
-  const auto h = static_cast<std::size_t>(points.height);
-  for (std::size_t v = 0; v < h; v += 2)
+  const auto addRow = [&](std::size_t v, std::vector<QuadricSums>& sums) {
     for (std::size_t u = 0; u < w; u += 2) {
       const std::size_t i = v * w + u;
       if (labels[i] == 0)
@@ -112,9 +122,21 @@ std::vector<Bend> measureBends(const OrganizedPoints& points,
       if (((u | v) & left_out) == 0)
         sums[k].add(points.x[i], points.y[i], points.z[i]);
     }
+  };
+  const Bands bands((points.height + 1) / 2, 4);
+  std::vector<std::vector<QuadricSums>> sums(
+      static_cast<std::size_t>(bands.count),
+      std::vector<QuadricSums>(planes.begin(), planes.end()));
+  parallelParts(bands.count, threads, [&](int band) {
+    for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
+      addRow(2 * static_cast<std::size_t>(row), sums[static_cast<std::size_t>(band)]);
+  });
   std::vector<Bend> bends;
-  for (const QuadricSums& sum : sums)
-    bends.push_back(sum.bend());
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    for (std::size_t band = 1; band < sums.size(); ++band)
+      sums[0][k] += sums[band][k];
+    bends.push_back(sums[0][k].bend());
+  }
   return bends;
 }
 

@@ -15,6 +15,7 @@ struct Bend {
  * every second row is used, of large regions half of these each way. O(points). */
 std::vector<Bend> measureBends(const OrganizedPoints& points,
                                const std::vector<std::uint16_t>& labels,
-                               const std::vector<FittedPlane>& planes);
+                               const std::vector<FittedPlane>& planes,
+                               unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

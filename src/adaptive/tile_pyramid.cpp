@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/tile_pyramid.h"
 #include "adaptive/tile_sums_kernel.h"
+#include "threads.h"
 
 #include <algorithm>
 
@@ -24,11 +25,16 @@ TileSums sumCutTile(const OrganizedPoints& points, int u0, int v0)
   return s;
 }
 
-void sumCells(const OrganizedPoints& points, TileLevel& cells)
+/// Some rows of tiles of a level, half open.
+struct TileRows {
+  int begin, end;
+};
+
+void sumCells(const OrganizedPoints& points, TileRows rows, TileLevel& cells)
 {
   const auto width = static_cast<std::size_t>(points.width);
   const int whole = points.width / CELL;
-  for (int r = 0; r < cells.rows; ++r) {
+  for (int r = rows.begin; r < rows.end; ++r) {
     const std::size_t i = static_cast<std::size_t>(r * CELL) * width;
     const TileStrip strip = {&points.x[i], &points.y[i],
                              &points.z[i], &points.valid[i],
@@ -39,15 +45,25 @@ void sumCells(const OrganizedPoints& points, TileLevel& cells)
   }
 }
 
-void poolTiles(const TileLevel& below, TileLevel& level)
+void poolTiles(const TileLevel& below, TileRows rows, TileLevel& level)
 {
-  for (int r = 0; r < level.rows; ++r)
+  for (int r = rows.begin; r < rows.end; ++r)
     for (int c = 0; c < level.columns; ++c) {
       TileSums& s = level.sums[level.at(c, r)];
       for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
         for (int i = 2 * c; i < std::min(2 * c + 2, below.columns); ++i)
           s += below.sums[below.at(i, j)];
     }
+}
+
+void fitTiles(TileRows rows, const AdaptiveParameters& parameters, TileLevel& level)
+{
+  const std::size_t first = level.at(0, rows.begin);
+  const std::size_t last = level.at(0, rows.end);
+  fitPlanes(&level.sums[first], last - first, &level.planes[first]);
+  for (std::size_t i = first; i < last; ++i)
+    if (!isFilled(level, i, parameters))
+      level.planes[i] = FittedPlane();
 }
 
 } // namespace
@@ -59,7 +75,8 @@ bool isFilled(const TileLevel& level, std::size_t tile,
 }
 
 std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
-                                        const AdaptiveParameters& parameters)
+                                        const AdaptiveParameters& parameters,
+                                        unsigned int threads)
 {
   std::vector<TileLevel> pyramid(static_cast<std::size_t>(parameters.levels));
   for (std::size_t l = 0; l < pyramid.size(); ++l) {
@@ -68,17 +85,22 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
     level.columns = (points.width + level.side - 1) / level.side;
     level.rows = (points.height + level.side - 1) / level.side;
     level.sums.resize(level.at(0, level.rows));
-    if (l == 0) {
-      sumCells(points, level);
-      continue;
-    }
-    poolTiles(pyramid[l - 1], level);
-    level.planes.resize(level.sums.size());
-    fitPlanes(level.sums.data(), level.sums.size(), level.planes.data());
-    for (std::size_t i = 0; i < level.sums.size(); ++i)
-      if (!isFilled(level, i, parameters))
-        level.planes[i] = FittedPlane();
+    if (l > 0)
+      level.planes.resize(level.sums.size());
   }
+  // A row of the largest tiles with all that it is made of stays in the nearest caches.
+  parallelParts(pyramid.back().rows, threads, [&](int row) {
+    for (std::size_t l = 0; l < pyramid.size(); ++l) {
+      const int rows = 1 << (pyramid.size() - 1 - l);
+      const TileRows part = {row * rows, std::min((row + 1) * rows, pyramid[l].rows)};
+      if (l == 0) {
+        sumCells(points, part, pyramid[l]);
+        continue;
+      }
+      poolTiles(pyramid[l - 1], part, pyramid[l]);
+      fitTiles(part, parameters, pyramid[l]);
+    }
+  });
   return pyramid;
 }
 

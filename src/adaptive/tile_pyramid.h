@@ -33,6 +33,7 @@ bool isFilled(const TileLevel& level, std::size_t tile,
 /** \brief Tiles of doubling side; each level is summed from the one below.
  * O(points) for the first level, O(cells) for the rest. */
 std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
-                                        const AdaptiveParameters& parameters);
+                                        const AdaptiveParameters& parameters,
+                                        unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -234,7 +234,8 @@ void MRFPlaneSegmentation<PointT>::copyPoints(int width, int height)
   if constexpr (std::is_same_v<decltype(PointT::x), float> &&
                 sizeof(PointT) % sizeof(float) == 0) {
     if (&cloud->y == &cloud->x + 1 && &cloud->z == &cloud->x + 2) {
-      points_.load(width, height, &cloud->x, sizeof(PointT) / sizeof(float));
+      points_.load(width, height, &cloud->x, sizeof(PointT) / sizeof(float),
+                   parameters_.number_of_threads);
       return; // as with all of PCL's point types
     }
   }
