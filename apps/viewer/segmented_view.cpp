@@ -3,6 +3,10 @@
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -25,6 +29,25 @@ std::vector<ViewPlane> planesOf(const Segmentation& segmentation,
                       regions[k].indices.size(), regions[k].area, regions[k].rms});
   }
   return planes;
+}
+
+std::vector<PlaneDeviations> deviationsOf(const Segmentation& segmentation)
+{
+  std::vector<PlaneUncertainty> uncertainties;
+  segmentation.computeUncertainties(uncertainties);
+  std::vector<PlaneDeviations> deviations;
+  for (const PlaneUncertainty& uncertainty : uncertainties) {
+    if (!uncertainty.valid) {
+      constexpr double UNKNOWN = std::numeric_limits<double>::infinity();
+      deviations.push_back({UNKNOWN, UNKNOWN});
+      continue;
+    }
+    const Eigen::Matrix2d turns = uncertainty.minimal.topLeftCorner<2, 2>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(turns);
+    deviations.push_back({std::sqrt(std::max(0.0, solver.eigenvalues()[1])),
+                          std::sqrt(std::max(0.0, uncertainty.minimal(2, 2)))});
+  }
+  return deviations;
 }
 
 } // namespace
@@ -62,6 +85,7 @@ SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
     segmentation->computeConfidence(confidence);
     return confidence;
   };
+  view.deviations = [segmentation] { return deviationsOf(*segmentation); };
   return view;
 }
 

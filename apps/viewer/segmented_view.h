@@ -26,6 +26,13 @@ struct ViewPlane {
   double rms = 0.0;  ///< metres
 };
 
+/** \brief One standard deviation of a plane's parameters; infinite where its points do not
+ * determine it. */
+struct PlaneDeviations {
+  double normal = 0.0; ///< about the axis that is known least, radians
+  double offset = 0.0; ///< of d, metres
+};
+
 /** \brief A segmented frame, by whatever method. */
 struct SegmentedView {
   std::string method;                ///< for the title
@@ -34,6 +41,8 @@ struct SegmentedView {
   std::vector<std::pair<std::string, double>> stage_ms;
   /// Confidence of every label, 0 to 1, worked out when it is asked for; may be empty.
   std::function<std::vector<float>()> confidence;
+  /// How well every plane is known, worked out when it is asked for; may be empty.
+  std::function<std::vector<PlaneDeviations>()> deviations;
 
   double totalMs() const;
 };

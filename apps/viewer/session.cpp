@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <set>
 #include <utility>
 
 namespace pcl_mrf_planes::viewer {
@@ -261,8 +262,9 @@ void Session::setParameters(const Parameters& parameters)
     return;
   }
   parameters_ = parameters;
-  forgetPlanes();
+  const std::vector<std::uint32_t> before = main_colours_;
   segment();
+  keepPlanes(before);
 }
 
 void Session::useSlider(std::size_t slider, double value)
@@ -330,6 +332,31 @@ void Session::forgetPlanes()
   settings.picked_point = -1;
   settings.isolate = false;
   settings.hidden.clear();
+}
+
+void Session::keepPlanes(const std::vector<std::uint32_t>& before)
+{
+  // A plane is the same one while it keeps its colour, whatever its number.
+  const auto now = [&](std::uint16_t label) -> std::uint16_t {
+    if (label == 0 || label > before.size())
+      return 0;
+    const auto found =
+        std::find(main_colours_.begin(), main_colours_.end(), before[label - 1u]);
+    return found == main_colours_.end()
+               ? std::uint16_t{0}
+               : static_cast<std::uint16_t>(found - main_colours_.begin() + 1);
+  };
+  std::set<std::uint16_t> hidden;
+  for (const std::uint16_t label : settings.hidden)
+    if (const std::uint16_t kept = now(label))
+      hidden.insert(kept);
+  settings.hidden = std::move(hidden);
+  if (settings.picked_point >= 0) {
+    pick(settings.picked_point); // what it is on now
+    return;
+  }
+  settings.selected = now(settings.selected);
+  settings.isolate = settings.isolate && settings.selected != 0;
 }
 
 std::string Session::parameterFile() const

@@ -79,6 +79,7 @@ private:
   void updateStages();
   void step(int by);
   void forgetPlanes();
+  void keepPlanes(const std::vector<std::uint32_t>& before);
   std::string parameterFile() const;
   void saveParameters();
   void loadParameters();

@@ -14,6 +14,13 @@ void describe(std::ostream& out, const SegmentedView& view)
       << std::setprecision(1) << view.totalMs() << " ms\n";
 }
 
+void describe(std::ostream& out, const PlaneDeviations& deviations)
+{
+  constexpr double DEGREES = 57.29577951308232; // a radian
+  out << "one standard deviation: normal " << DEGREES * deviations.normal
+      << " degrees, d " << 1000.0 * deviations.offset << " mm\n";
+}
+
 } // namespace
 
 std::string factsText(const Session& session)
@@ -64,6 +71,8 @@ std::string selectionText(const Session& session)
       << plane.normal.y() << ' ' << plane.normal.z() << ' ' << plane.d << '\n'
       << plane.points << " points, " << plane.area << " m2, rms " << 1000.0 * plane.rms
       << " mm\n";
+  if (view.deviations)
+    describe(out, view.deviations().at(settings.selected - 1u));
   if (picked) {
     out << "distance " << 1000.0 * distanceToPlane(session.frame(), view, point)
         << " mm";

@@ -8,6 +8,8 @@
 #include "view_text.h"
 #include "viewer_test.h"
 
+#include <pcl_mrf_planes/mrf_plane_segmentation.h>
+
 #include <set>
 
 namespace pcl_mrf_planes::test {
@@ -94,6 +96,28 @@ TEST_F(Model, ColoursStayWithTheirPlanesWhenParametersChange)
   EXPECT_GT(static_cast<double>(same), 0.95 * static_cast<double>(labelled));
 }
 
+TEST_F(Model, SelectionAndHiddenPlanesStayWhenParametersChange)
+{
+  Session session = open({room("room.pcd")});
+  session.settings.hidden = {1};
+  session.settings.selected = 2;
+  const std::uint32_t hidden = session.mainColours()[0];
+  const std::uint32_t selected = session.mainColours()[1];
+  Parameters changed = session.parameters();
+  changed.min_inliers = 2000;
+  session.setParameters(changed);
+  ASSERT_EQ(session.settings.hidden.size(), 1u);
+  EXPECT_EQ(session.mainColours()[*session.settings.hidden.begin() - 1u], hidden);
+  ASSERT_NE(session.settings.selected, 0);
+  EXPECT_EQ(session.mainColours()[session.settings.selected - 1u], selected);
+
+  changed.min_inliers = static_cast<int>(session.frame().cloud->size());
+  session.setParameters(changed); // no plane is left
+  EXPECT_TRUE(session.main().planes.empty());
+  EXPECT_TRUE(session.settings.hidden.empty());
+  EXPECT_EQ(session.settings.selected, 0);
+}
+
 TEST_F(Model, ComparesSideBySide)
 {
   Session session = open({room("room.pcd")});
@@ -142,7 +166,8 @@ TEST_F(Model, PickedPointTellsOfItsPlane)
                                session.main().labels.end(), std::uint16_t{1});
   session.pick(place - session.main().labels.begin());
   EXPECT_EQ(session.settings.selected, 1);
-  for (const char* word : {"plane 1", "m2", "rms", "distance", "confidence", "depth"})
+  for (const char* word : {"plane 1", "m2", "rms", "distance", "confidence", "depth",
+                           "standard deviation"})
     EXPECT_NE(selectionText(session).find(word), std::string::npos) << word;
   session.perform(Action::DESELECT);
   EXPECT_EQ(selectionText(session), "");
@@ -163,6 +188,30 @@ TEST_F(Model, DistancesAreThoseToThePlane)
     EXPECT_EQ(count, view.planes[k].points);
     EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), view.planes[k].rms,
                 1e-4);
+  }
+}
+
+TEST_F(Model, DeviationsAreThoseOfTheCovariance)
+{
+  Session session = open({room("room.pcd")});
+  pcl::MRFPlaneSegmentation<pcl::PointXYZ> segmentation;
+  segmentation.setInputCloud(session.frame().cloud);
+  std::vector<pcl::ModelCoefficients> models;
+  std::vector<pcl::PointIndices> inliers;
+  segmentation.segment(models, inliers);
+  std::vector<PlaneUncertainty> expected;
+  segmentation.computeUncertainties(expected);
+  const std::vector<PlaneDeviations> deviations = session.main().deviations();
+  ASSERT_EQ(deviations.size(), expected.size());
+  ASSERT_GE(deviations.size(), 2u);
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const double variance = std::pow(deviations[k].normal, 2);
+    // The larger eigenvalue lies between the larger diagonal element and the trace.
+    EXPECT_GE(variance * (1.0 + 1e-9),
+              std::max(expected[k].minimal(0, 0), expected[k].minimal(1, 1)));
+    const double trace = expected[k].minimal(0, 0) + expected[k].minimal(1, 1);
+    EXPECT_LE(variance, (1.0 + 1e-9) * trace);
+    EXPECT_NEAR(deviations[k].offset, std::sqrt(expected[k].minimal(2, 2)), 1e-12);
   }
 }
 
