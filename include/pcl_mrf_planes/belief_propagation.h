@@ -60,10 +60,10 @@ public:
 
   /// \name Directions a message comes from
   ///@{
-  static constexpr int FROM_LEFT = 0;
-  static constexpr int FROM_RIGHT = 1;
-  static constexpr int FROM_ABOVE = 2;
-  static constexpr int FROM_BELOW = 3;
+  static constexpr int FROM_LEFT = 0;  ///< site (x - 1, y)
+  static constexpr int FROM_RIGHT = 1; ///< site (x + 1, y)
+  static constexpr int FROM_ABOVE = 2; ///< site (x, y - 1)
+  static constexpr int FROM_BELOW = 3; ///< site (x, y + 1)
   ///@}
 
 private:

@@ -20,6 +20,7 @@ namespace pcl_mrf_planes {
 struct PCL_MRF_PLANES_EXPORT FieldEnergy {
   double data = 0.0;       ///< sum of (7) over the valid points
   double smoothness = 0.0; ///< sum of V over the edges, each edge once
+  /** \brief Data and smoothness together; energy units. */
   double total() const { return data + smoothness; }
 };
 
