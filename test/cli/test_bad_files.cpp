@@ -207,8 +207,11 @@ TEST_F(BadFiles, AFullDeviceIsAnErrorAndStaysWhereItIs)
   if (!std::filesystem::is_character_file("/dev/full"))
     GTEST_SKIP() << "no /dev/full here";
   std::filesystem::create_symlink("/dev/full", path("full"));
-  for (const char* option : {"--models", "--label-image", "--overlay"})
-    expectFailure({path("binary.pcd"), option, path("full")}, "cannot write '");
+  for (const char* option :
+       {"--models", "--label-image", "--overlay", "--ply", "--polygons",
+        "--confidence-image", "--rest", "--save-parameters", "--figure"})
+    expectFailure({path("binary.pcd"), path("out.pcd"), option, path("full")},
+                  "cannot write '");
   expectFailure({path("binary.pcd"), path("full")}, "cannot write '");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
