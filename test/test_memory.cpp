@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a segmentation leaves behind: nothing that grows. PCL_MRF_PLANES_LONG=1 runs ten
-// thousand frames and the largest cloud (8 GB of memory) as well.
+// thousand frames and the largest cloud (3 GB of memory) as well.
 #include "reference/inputs.h"
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
