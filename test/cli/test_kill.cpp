@@ -64,9 +64,10 @@ TEST_F(Kill, LeavesNoHalfFile)
       killed += runAndKill(signal, 0.004 * step) != 0 ? 1 : 0;
       expectWhole();
       // No one can catch KILL: its temporary files stay, under their own names.
-      if (std::string(signal) != "KILL")
+      if (std::string(signal) != "KILL") {
         EXPECT_EQ(files(),
                   (std::set<std::string>{"in.pcd", "out.json", "out.pcd", "out.png"}));
+      }
     }
     EXPECT_GT(killed, 0) << signal << " never came in time";
   }
