@@ -81,6 +81,27 @@ TEST(Memory, DoesNotGrowWithTheFrames)
   }
 }
 
+TEST(Memory, SizesWhoseProductOverflowsAreRefused)
+{
+  // The products are 0, 1 and 4 in 32 bits.
+  for (const auto& [width, height, count] :
+       {std::array{65536U, 65536U, 0U}, {641U, 6700417U, 1U}, {2147483650U, 2U, 4U}}) {
+    Cloud::Ptr cloud(new Cloud);
+    cloud->points.resize(count);
+    cloud->width = width;
+    cloud->height = height;
+    Segmentation segmentation;
+    segmentation.setInputCloud(cloud);
+    std::vector<pcl::ModelCoefficients> planes(1);
+    std::vector<pcl::PointIndices> inliers(1);
+    testing::internal::CaptureStderr();
+    EXPECT_NO_THROW(segmentation.segment(planes, inliers));
+    EXPECT_FALSE(testing::internal::GetCapturedStderr().empty());
+    EXPECT_TRUE(planes.empty());
+    EXPECT_TRUE(inliers.empty());
+  }
+}
+
 TEST(Memory, TheLargestCloudIsSegmented)
 {
   if (!longRun())
