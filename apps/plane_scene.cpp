@@ -310,6 +310,8 @@ int main(int argc, char* argv[])
           << "Writes an organized cloud of a made-up scene, seen by a depth camera "
              "or a lidar,\nand its exact planes.\n\n"
           << describe(defaults);
+      if (!std::cout.flush())
+        throw std::runtime_error("cannot write to standard output");
       return 0;
     }
     run(options);

@@ -102,6 +102,8 @@ int main(int argc, char* argv[])
       std::cout << PROGRAM << ' ' << PCL_MRF_PLANES_VERSION << '\n';
     else
       return run(options);
+    if (!std::cout.flush())
+      throw std::runtime_error("cannot write to standard output");
     return 0;
   }
   catch (const UsageError& error) {

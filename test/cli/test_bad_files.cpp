@@ -207,10 +207,25 @@ TEST_F(BadFiles, AFullDeviceIsAnErrorAndStaysWhereItIs)
   if (!std::filesystem::is_character_file("/dev/full"))
     GTEST_SKIP() << "no /dev/full here";
   std::filesystem::create_symlink("/dev/full", path("full"));
-  for (const char* option : {"--models", "--label-image", "--overlay"})
+  for (const char* option :
+       {"--models", "--label-image", "--overlay", "--ply", "--polygons",
+        "--confidence-image", "--rest", "--save-parameters", "--figure"})
     expectFailure({path("binary.pcd"), option, path("full")}, "cannot write '");
   expectFailure({path("binary.pcd"), path("full")}, "cannot write '");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_F(BadFiles, HelpThatIsNotTakenIsAnError)
+{
+  if (!std::filesystem::is_character_file("/dev/full"))
+    GTEST_SKIP() << "no /dev/full here";
+  for (const char* app : {PCL_MRF_PLANES_SEGMENTATION_APP,
+                          PCL_MRF_PLANES_EVALUATION_APP, PCL_MRF_PLANES_SCENE_APP}) {
+    const Outcome outcome =
+        run("/bin/sh", {"-c", std::string("'") + app + "' --help >/dev/full"});
+    EXPECT_EQ(outcome.status, 1) << app;
+    EXPECT_NE(outcome.err.find("cannot write to standard output"), std::string::npos);
+  }
 }
 
 TEST_F(BadFiles, WhatDoesNotFitOnTheDiskIsAnErrorInEveryFormat)

@@ -56,4 +56,21 @@ inline void analyse(Segmentation& segmentation, std::size_t points)
   segmentation.computeHulls(polygons);
 }
 
+/** \brief Segments \a cloud and checks what comes out of it, and all that can be asked
+ * afterwards.
+ * \return the number of planes
+ */
+inline std::size_t segmentSoundly(Segmentation& segmentation,
+                                  const pcl::PointCloud<pcl::PointXYZ>::Ptr& cloud)
+{
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  segmentation.setInputCloud(cloud);
+  std::vector<pcl::ModelCoefficients> planes;
+  std::vector<pcl::PointIndices> inliers;
+  segmentation.segment(planes, inliers);
+  requireSound(*cloud, planes, inliers);
+  analyse(segmentation, cloud->size());
+  return planes.size();
+}
+
 } // namespace pcl_mrf_planes::fuzz

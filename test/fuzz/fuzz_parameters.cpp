@@ -145,13 +145,8 @@ void run(Bytes bytes)
   }
   Segmentation segmentation;
   segmentation.setParameters(p);
-  segmentation.setInputCloud(cloud);
-  std::vector<pcl::ModelCoefficients> planes;
-  std::vector<pcl::PointIndices> inliers;
-  segmentation.segment(planes, inliers);
-  requireSound(*cloud, planes, inliers);
-  require(planes.empty() || p.validate().empty(), "planes by parameters out of range");
-  analyse(segmentation, cloud->size());
+  const std::size_t planes = segmentSoundly(segmentation, cloud);
+  require(planes == 0 || p.validate().empty(), "planes by parameters out of range");
 }
 
 } // namespace
@@ -159,7 +154,6 @@ void run(Bytes bytes)
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   pcl_mrf_planes::fuzz::run({data, size});
   return 0;
 }

@@ -95,13 +95,7 @@ void run(Bytes bytes)
     parameters.adaptive.min_evidence = 0.0;
     segmentation.setParameters(parameters);
   }
-  const Cloud::Ptr cloud = makeCloud(bytes);
-  segmentation.setInputCloud(cloud);
-  std::vector<pcl::ModelCoefficients> planes;
-  std::vector<pcl::PointIndices> inliers;
-  segmentation.segment(planes, inliers);
-  requireSound(*cloud, planes, inliers);
-  analyse(segmentation, cloud->size());
+  segmentSoundly(segmentation, makeCloud(bytes));
   if ((switches & 32) != 0) {
     Segmentation::PlanarRegions regions;
     segmentation.segment(regions);
@@ -113,7 +107,6 @@ void run(Bytes bytes)
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   pcl_mrf_planes::fuzz::run({data, size});
   return 0;
 }

@@ -107,6 +107,7 @@ TEST_F(PlyFiles, DamagedOnesGiveAMessage)
   write("bare.ply",
         "ply\nformat binary_little_endian 1.0\nelement vertex 6\nend_header\n");
   expectError("bare.ply", {"damaged header", "without properties"});
+  // Found by reading the code: no conversion of such a count is defined.
   write("beyond.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1e30\n"
                       "property float x\nend_header\n1234");
   expectError("beyond.ply", {"truncated"});
