@@ -25,6 +25,7 @@ void OrganizedPoints::load(int new_width, int new_height, const float* first,
                            std::size_t stride, unsigned int threads)
 {
   setSize(new_width, new_height);
+  const ThreadTeam team(threads);
   const Bands bands(height);
   parallelParts(bands.count, threads, [&](int band) {
     const auto start = [&](int b) {

@@ -6,6 +6,7 @@
 
 #include "region_gathering.h"
 #include "stage_timer.h"
+#include "threads.h"
 
 #include <cmath>
 
@@ -84,6 +85,7 @@ void SegmentationReport::count(const OrganizedPoints& organized_points,
 PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
                                 const Parameters& parameters)
 {
+  const ThreadTeam team(parameters.number_of_threads);
   return parameters.method == Method::PAPER ? segmentAsInPaper(points, parameters)
                                             : segmentAdaptively(points, parameters);
 }

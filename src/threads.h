@@ -1,54 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "thread_team.h"
+
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <thread>
 #include <vector>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 namespace pcl_mrf_planes {
 
-/// The number of threads that a setting asks for; 0 means as many as there are cores.
-inline int threadCount(unsigned int setting)
-{
-#ifdef _OPENMP
-  return setting == 0 ? omp_get_num_procs() : static_cast<int>(setting);
-#else
-  static_cast<void>(setting);
-  return 1;
-#endif
-}
-
 /// Calls work(part) for every part below \a parts. Parts must not depend on each other, so
-/// that the result is the same at any thread count. One exception that work throws is
-/// thrown again here, after all parts.
+/// that the result is the same at any thread count. They are handed out in their order to
+/// the calling thread and to those of its team that are there: it never waits for one that
+/// has not begun, as where other programs have the cores. Of what work throws one is thrown
+/// again here, after all parts.
 template <typename Work>
 void parallelParts(int parts, unsigned int threads, const Work& work)
 {
-#ifdef _OPENMP
-  const int count = std::min(threadCount(threads), parts);
-  if (count > 1) {
-    std::exception_ptr failure; // none may leave the threads
-#pragma omp parallel for schedule(dynamic, 1) num_threads(count)
-    for (int part = 0; part < parts; ++part)
-      try {
-        work(part);
-      }
-      catch (...) {
-#pragma omp critical(pcl_mrf_planes_failure)
-        failure = std::current_exception();
-      }
-    if (failure)
-      std::rethrow_exception(failure);
-    return;
-  }
-#endif
-  static_cast<void>(threads);
+  if (parts > 1 && threadCount(threads) > 1)
+    if (ThreadTeam* team = ThreadTeam::ofThisThread()) {
+      team->run(parts, &work, [](const void* task, int part) {
+        (*static_cast<const Work*>(task))(part);
+      });
+      return;
+    }
   for (int part = 0; part < parts; ++part)
     work(part);
 }
