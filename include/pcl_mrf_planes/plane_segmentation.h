@@ -75,7 +75,7 @@ PCL_MRF_PLANES_EXPORT PlaneSegmentation segmentAsInPaper(const OrganizedPoints& 
  * merging on pooled sums, a random field in which a plane competes only where it has
  * support and "no plane" is a label, and a refit.
  *
- * Uses one thread. The result has no image of planar fits and no tile-to-plane map.
+ * The result has no image of planar fits and no tile-to-plane map.
  * \param[in] points the cloud in the sensor frame
  * \param[in] parameters must pass Parameters::validate()
  */

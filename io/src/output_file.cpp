@@ -126,15 +126,18 @@ public:
         target.stem().string() + ".partial-" + std::to_string(::getpid()) + '-';
     for (int number = 0; number < 1000; ++number) {
       path_ = folder / (start + std::to_string(number) + target.extension().string());
+      place_ = PartialFiles::add(path_); // before a signal can find it there
       const int file =
           ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      const int error = errno;
       if (file >= 0) {
         ::close(file);
-        place_ = PartialFiles::add(path_);
         return;
       }
-      if (errno != EEXIST)
-        failToCreate(wanted, errno);
+      PartialFiles::remove(place_);
+      place_ = -1;
+      if (error != EEXIST)
+        failToCreate(wanted, error);
     }
     failToCreate(wanted, EEXIST);
   }
