@@ -4,10 +4,13 @@
 
 #include <pcl_mrf_planes/belief_gap.h>
 #include <pcl_mrf_planes/label_confidence.h>
+#include <pcl_mrf_planes/plane_field.h>
+#include <pcl_mrf_planes/row_propagation.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -170,6 +173,43 @@ TEST(LabelConfidenceTest, TheMoreConfidentTheMoreOftenRight)
     EXPECT_GT(right[k], right[k - 1] - 0.005) << "fifth " << k;
   EXPECT_LT(right.front(), 0.9);
   EXPECT_GT(right.back(), 0.97);
+}
+
+/// What a typical change of label costs: (8), or the median of (5) over the pairs.
+double typicalPrice(const std::vector<Plane>& planes, const Parameters& parameters)
+{
+  std::vector<double> prices;
+  for (std::size_t a = 0; a < planes.size(); ++a)
+    for (std::size_t b = a + 1; b < planes.size(); ++b)
+      prices.push_back(dissimilarity(planes[a], planes[b], parameters.beta));
+  std::sort(prices.begin(), prices.end());
+  return parameters.smoothness == Smoothness::POTTS ? parameters.gamma
+                                                    : prices[prices.size() / 2];
+}
+
+TEST(LabelConfidenceTest, GapsOfThePapersMethodAreMeasuredInPricesOfItsSmoothness)
+{
+  const OrganizedPoints points = reference::toPoints(
+      reference::takePicture("room", 320, 240, 3, scenes::SensorNoise::kinect()));
+  for (const Smoothness smoothness :
+       {Smoothness::POTTS, Smoothness::DISSIMILARITY, Smoothness::HYBRID}) {
+    Parameters parameters = Parameters::fromProfile(Profile::PAPER);
+    parameters.smoothness = smoothness;
+    const PlaneSegmentation result = segmentPlanes(points, parameters);
+    std::vector<Plane> planes;
+    for (const PlaneModel& model : result.clusters.planes)
+      planes.push_back(model.plane);
+    ASSERT_GE(planes.size(), 3U);
+    const PlaneField field(points, planes, parameters);
+    const auto gaps = propagateRowGaps(field, parameters.iterations);
+    const double unit = 2 * typicalPrice(planes, parameters) * field.unitsPerEnergy();
+    const auto confidence = labelConfidence(points, result, parameters);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points.valid[i] != 0) {
+        ASSERT_NEAR(confidence[i], 1 - std::exp(-gaps[i] / unit), 1e-4)
+            << "smoothness " << static_cast<int>(smoothness) << ", point " << i;
+      }
+  }
 }
 
 } // namespace

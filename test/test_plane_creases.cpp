@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_mrf_planes {
@@ -173,6 +174,28 @@ TEST(PlaneCreasesTest, ABrokenBorderIsSeveralCreases)
   CreaseParameters wide;
   wide.max_gap = 1.0;
   EXPECT_EQ(findCreases(points, trueRegions(frame, points), wide).size(), 1U);
+}
+
+TEST(PlaneCreasesTest, LeavesOutPiecesOfTooFewPointsAndNoOthers)
+{
+  scenes::View view = scenes::corner();
+  const auto frame = scenes::render(view.scene, view.camera);
+  const OrganizedPoints points = reference::toPoints(frame);
+  const auto regions = trueRegions(frame, points);
+  CreaseParameters parameters;
+  parameters.min_points = 1;
+  const auto all = findCreases(points, regions, parameters);
+  ASSERT_EQ(all.size(), 3U);
+  for (const PlaneCrease& limit : all)
+    for (const int more : {0, 1}) {
+      parameters.min_points = limit.points + more;
+      const auto expected = std::count_if(all.begin(), all.end(), [&](const auto& c) {
+        return c.points >= parameters.min_points;
+      });
+      EXPECT_EQ(findCreases(points, regions, parameters).size(),
+                static_cast<std::size_t>(expected))
+          << "of " << parameters.min_points << " points or more";
+    }
 }
 
 TEST(CreaseParametersTest, WhatCannotBeIsRefused)

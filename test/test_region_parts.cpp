@@ -79,5 +79,36 @@ TEST(RegionPartsTest, SmallOnesAreDroppedByPointsOrByArea)
   EXPECT_TRUE(separateParts(points, {}).empty());
 }
 
+// Labels of parts are 16-bit numbers: of more parts than these the largest stay.
+TEST(RegionPartsTest, OfTooManyPartsTheLargestAreKept)
+{
+  constexpr int SIDE = 524; // every other point both ways: 68644 that touch no other
+  constexpr int JOINED = 500;
+  constexpr std::size_t MOST = 65000;
+  OrganizedPoints points;
+  points.resize(SIDE, SIDE);
+  std::vector<std::uint16_t> labels(points.size(), NO_PLANE);
+  std::ptrdiff_t larger = 0;
+  for (int y = 0; y < SIDE; ++y)
+    for (int x = 0; x < SIDE; ++x) {
+      const auto i = static_cast<std::size_t>(y * SIDE + x);
+      points.set(i, 0.01f * static_cast<float>(x), 0.01f * static_cast<float>(y), 3.0f);
+      // Near the end of the image some points join those above and below.
+      const bool joins = y > JOINED && x % 4 == 0 && y % 4 == 1;
+      if (joins || (x % 2 == 0 && y % 2 == 0))
+        labels[i] = 0;
+      larger += joins ? 1 : 0;
+    }
+  const std::vector<Plane> planes = {{{0, 0, -1}, 3}};
+  const auto regions = gatherRegions(points, planes, labels, 0);
+  ASSERT_EQ(regions.size(), 1U);
+  const auto parts = separateParts(points, regions, 1);
+  EXPECT_EQ(parts.size(), MOST);
+  EXPECT_EQ(std::count_if(parts.begin(), parts.end(),
+                          [](const auto& part) { return part.indices.size() > 1; }),
+            larger)
+      << "none of the larger parts, last in the image, may go";
+}
+
 } // namespace
 } // namespace pcl_mrf_planes
