@@ -47,6 +47,7 @@ std::uint16_t BeliefPropagation::sendMessages(int colour)
     return received_[direction][other].data() + layout.rowStart(y, field_.labels());
   };
   std::vector<std::uint16_t> change(static_cast<std::size_t>(layout.height), 0);
+  const ThreadTeam team(threads_);
   parallelRows(layout.height, threads_, [&](int y) {
     SendRow rows;
     rows.target[LEFT] = received(RIGHT, y);
@@ -87,6 +88,7 @@ std::vector<std::uint16_t> BeliefPropagation::mapLabels() const
   const CheckerboardLayout& layout = field_.layout();
   std::vector<std::uint16_t> labels(static_cast<std::size_t>(layout.width) *
                                     static_cast<std::size_t>(layout.height));
+  const ThreadTeam team(threads_);
   parallelRows(layout.height, threads_, [&](int y) {
     KernelScratch scratch(field_.labels(), layout.stride);
     for (int colour = 0; colour < 2; ++colour)

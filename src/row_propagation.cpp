@@ -191,7 +191,8 @@ std::vector<std::uint16_t> sweep(const FieldRows& field, int iterations,
   // No more bands than leave each one at least as much of its own as it repeats.
   const int most = std::max(1, height / std::max(1, 2 * iterations));
   const int bands = std::min(threadCount(threads), most);
-  parallelRows(bands, threads, [&](int band) {
+  const ThreadTeam team(threads);
+  parallelParts(bands, threads, [&](int band) {
     const auto start = [&](int b) {
       return static_cast<int>(static_cast<long long>(height) * b / bands);
     };

@@ -94,6 +94,7 @@ TileImage detectTilePlanes(const OrganizedPoints& points, const Parameters& para
   image.tiles.resize(static_cast<std::size_t>(image.columns) *
                      static_cast<std::size_t>(image.rows));
 
+  const ThreadTeam team(parameters.number_of_threads);
   parallelRows(image.rows, parameters.number_of_threads, [&](int row) {
     for (int column = 0; column < image.columns; ++column) {
       const std::size_t index =
