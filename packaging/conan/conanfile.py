@@ -28,6 +28,7 @@ class PclMrfPlanes(ConanFile):
         self.requires("boost/1.83.0")
         self.requires("hdf5/1.14.3")
         self.requires("highway/1.1.0")
+        self.requires("onetbb/2021.12.0")
         self.requires("libpng/1.6.43")
         self.requires("yaml-cpp/0.8.0")
 
@@ -55,7 +56,8 @@ class PclMrfPlanes(ConanFile):
         core = self.cpp_info.components["core"]
         core.libs = ["pcl_mrf_planes"]
         core.set_property("cmake_target_name", "pcl_mrf_planes::pcl_mrf_planes")
-        core.requires = ["eigen::eigen", "pcl::common", "highway::highway", "boost::headers"]
+        core.requires = ["eigen::eigen", "pcl::common", "highway::highway", "onetbb::onetbb",
+                         "boost::headers"]
         readers = self.cpp_info.components["io"]
         readers.libs = ["pcl_mrf_planes_io"]
         readers.set_property("cmake_target_name", "pcl_mrf_planes::pcl_mrf_planes_io")
