@@ -59,25 +59,18 @@ ScatterMatrix sumRun(const OrganizedPoints& points, const LabelRun& run)
   return sums;
 }
 
-/// Ten sums of the points of each label, band by band of the image.
+/// Ten sums of the points of each label.
 std::vector<ScatterMatrix> sumLabels(const OrganizedPoints& points, std::size_t count,
                                      const LabelRuns& image, unsigned int threads)
 {
-  const Bands bands(static_cast<int>(image.rows.size()) - 1, 4);
-  std::vector<std::vector<ScatterMatrix>> parts(static_cast<std::size_t>(bands.count));
-  parallelParts(bands.count, threads, [&](int band) {
-    std::vector<ScatterMatrix>& sums = parts[static_cast<std::size_t>(band)];
-    sums.resize(count);
-    const std::size_t last =
-        image.rows[static_cast<std::size_t>(bands.begin(band + 1))];
-    for (std::size_t k = image.rows[static_cast<std::size_t>(bands.begin(band))];
-         k < last; ++k)
-      sums[image.runs[k].label] += sumRun(points, image.runs[k]);
-  });
-  for (std::size_t part = 1; part < parts.size(); ++part)
-    for (std::size_t k = 0; k < count; ++k)
-      parts[0][k] += parts[part][k];
-  return std::move(parts[0]);
+  return sumOfBands(
+      static_cast<int>(image.rows.size()) - 1, threads,
+      std::vector<ScatterMatrix>(count),
+      [&](int first, int last, std::vector<ScatterMatrix>& sums) {
+        const std::size_t end = image.rows[static_cast<std::size_t>(last)];
+        for (std::size_t k = image.rows[static_cast<std::size_t>(first)]; k < end; ++k)
+          sums[image.runs[k].label] += sumRun(points, image.runs[k]);
+      });
 }
 
 PlaneRegion makeRegion(const Plane& plane, std::size_t label, double area,

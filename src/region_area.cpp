@@ -25,10 +25,10 @@ class MeshBorder {
 public:
   MeshBorder(const OrganizedPoints& points, const std::vector<Plane>& planes,
              const LabelRuns& image)
-  : points_(points)
+  : twice_areas(planes.size(), 0.0)
+  , points_(points)
   , planes_(planes)
   , image_(image)
-  , twice_area_(planes.size(), 0.0)
   {}
 
   /// Adds what lies between the points of some rows and those of the next ones, and along
@@ -52,7 +52,13 @@ public:
     }
   }
 
-  const std::vector<double>& twiceAreas() const { return twice_area_; }
+  MeshBorder& operator+=(const MeshBorder& other)
+  {
+    addTo(twice_areas, other.twice_areas);
+    return *this;
+  }
+
+  std::vector<double> twice_areas;
 
 private:
   /// n . (p x q): what the edge from p to q adds to twice the area of its label.
@@ -83,7 +89,7 @@ private:
     const LabelRun& upper = *strip.upper;
     const LabelRun& lower = *strip.lower;
     // Down the right side, up the left one.
-    double& sum = twice_area_[strip.label];
+    double& sum = twice_areas[strip.label];
     const std::size_t last = strip.end - 1;
     sum += edge(last, last + width, strip.label) +
            edge(strip.begin + width, strip.begin, strip.label);
@@ -144,13 +150,12 @@ private:
   void addRange(std::size_t p, std::size_t last, std::uint16_t label, double sign)
   {
     for (; p < last; ++p)
-      twice_area_[label] += sign * edge(p, p + 1, label);
+      twice_areas[label] += sign * edge(p, p + 1, label);
   }
 
   const OrganizedPoints& points_;
   const std::vector<Plane>& planes_;
   const LabelRuns& image_;
-  std::vector<double> twice_area_;
 };
 
 } // namespace
@@ -159,18 +164,14 @@ std::vector<double> meshAreas(const OrganizedPoints& points,
                               const std::vector<Plane>& planes, const LabelRuns& image,
                               unsigned int threads)
 {
-  const Bands bands(static_cast<int>(image.rows.size()) - 1, 4);
-  std::vector<MeshBorder> parts(static_cast<std::size_t>(bands.count),
-                                MeshBorder(points, planes, image));
-  parallelParts(bands.count, threads, [&](int band) {
-    parts[static_cast<std::size_t>(band)].addRows(
-        static_cast<std::size_t>(bands.begin(band)),
-        static_cast<std::size_t>(bands.begin(band + 1)));
-  });
-  std::vector<double> areas(planes.size(), 0.0);
-  for (const MeshBorder& part : parts)
-    for (std::size_t k = 0; k < areas.size(); ++k)
-      areas[k] += part.twiceAreas()[k];
+  std::vector<double> areas =
+      sumOfBands(static_cast<int>(image.rows.size()) - 1, threads,
+                 MeshBorder(points, planes, image),
+                 [](int first, int last, MeshBorder& border) {
+                   border.addRows(static_cast<std::size_t>(first),
+                                  static_cast<std::size_t>(last));
+                 })
+          .twice_areas;
   for (double& area : areas)
     area = std::abs(area) / 2;
   return areas;

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 namespace pcl_mrf_planes {
@@ -39,9 +38,8 @@ public:
                 std::memory_order_release);
     while (doPart())
       ;
-    for (int looks = 0; done_.load(std::memory_order_acquire) < parts; ++looks)
-      if (looks > PATIENCE)
-        std::this_thread::yield();
+    for (Patience patience; done_.load(std::memory_order_acquire) < parts;)
+      patience.wait();
     if (failure_)
       std::rethrow_exception(std::exchange(failure_, nullptr));
   }
@@ -49,18 +47,16 @@ public:
   /// Takes parts until the team ends.
   void help()
   {
-    for (int looks = 0; !ended_.load(std::memory_order_acquire); ++looks)
+    for (Patience patience; !ended_.load(std::memory_order_acquire);)
       if (doPart())
-        looks = 0;
-      else if (looks > PATIENCE)
-        std::this_thread::yield();
+        patience = {};
+      else
+        patience.wait();
   }
 
   void end() { ended_.store(true, std::memory_order_release); }
 
 private:
-  static constexpr int PATIENCE =
-      1000; // looks, before another thread may have the core
   static constexpr unsigned BITS =
       20; // of the parts, and of the next one; the job's are 24
 
@@ -119,8 +115,14 @@ ThreadTeam::ThreadTeam(unsigned int threads)
   if (count < 2 || team_of_this_thread != nullptr)
     return;
   board_ = std::make_shared<Board>();
-  for (int helper = 1; helper < count; ++helper)
-    helpersOfThisThread(count - 1).enqueue([board = board_] { board->help(); });
+  try {
+    for (int helper = 1; helper < count; ++helper)
+      helpersOfThisThread(count - 1).enqueue([board = board_] { board->help(); });
+  }
+  catch (...) { // those that are there already must not look out for ever
+    board_->end();
+    throw;
+  }
   team_of_this_thread = this;
 }
 

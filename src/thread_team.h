@@ -2,8 +2,26 @@
 #pragma once
 
 #include <memory>
+#include <thread>
 
 namespace pcl_mrf_planes {
+
+/// Waits for what other threads are about to do, and now and then lets another one have the
+/// core: those threads may need it.
+class Patience {
+public:
+  void wait()
+  {
+    if (looks_ < MOST)
+      ++looks_;
+    else
+      std::this_thread::yield();
+  }
+
+private:
+  static constexpr int MOST = 1000; ///< looks at once
+  int looks_ = 0;
+};
 
 /// The number of threads that a setting asks for; 0 means as many as there are cores.
 int threadCount(unsigned int setting);

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace pcl_mrf_planes {
@@ -29,12 +30,13 @@ void parallelParts(int parts, unsigned int threads, const Work& work)
     work(part);
 }
 
-/// Rows of an image in bands. Their number depends on the number of rows alone, never on that
-/// of the threads: what is added up band by band is so in the same order always.
+/// Rows of an image in bands. By themselves they are as many as the rows allow, whatever the
+/// number of threads; who asks for a number of threads must not let it change the result.
 struct Bands {
   int rows;
   int count;
 
+  /// \param[in] most bands, at least 1
   explicit Bands(int of_rows, int most = 16)
   : rows(of_rows)
   , count(std::clamp(of_rows, 1, most))
@@ -58,6 +60,36 @@ void parallelRows(int rows, unsigned int threads, const Work& work)
   });
 }
 
+/// Adds to a sum what parts of it hold; to a row of sums, one by one.
+template <typename Sum>
+void addTo(Sum& sum, const Sum& part)
+{
+  sum += part;
+}
+template <typename Sum>
+void addTo(std::vector<Sum>& sums, const std::vector<Sum>& parts)
+{
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    addTo(sums[k], parts[k]);
+}
+
+/// Sum of what add(first, last, sum) adds to \a none for rows of an image, half open. The
+/// bands do not depend on the number of threads: numbers are added in the same order always.
+template <typename Sum, typename Add>
+Sum sumOfBands(int rows, unsigned int threads, const Sum& none, const Add& add)
+{
+  constexpr int FEW =
+      4; // each has a sum of its own, of as many numbers as there are labels
+  const Bands bands(rows, FEW);
+  std::vector<Sum> sums(static_cast<std::size_t>(bands.count), none);
+  parallelParts(bands.count, threads, [&](int band) {
+    add(bands.begin(band), bands.begin(band + 1), sums[static_cast<std::size_t>(band)]);
+  });
+  for (std::size_t band = 1; band < sums.size(); ++band)
+    addTo(sums[0], sums[band]);
+  return std::move(sums[0]);
+}
+
 /// How far each strip of an image has come.
 class StripProgress {
 public:
@@ -68,10 +100,8 @@ public:
   /// Waits until a strip has done more than so many steps.
   void await(int strip, int steps) const
   {
-    constexpr int PATIENCE = 1000; // looks, before another thread may have the core
-    for (int looks = 0; done(strip).load(std::memory_order_acquire) <= steps; ++looks)
-      if (looks > PATIENCE)
-        std::this_thread::yield();
+    for (Patience patience; done(strip).load(std::memory_order_acquire) <= steps;)
+      patience.wait();
   }
   void reach(int strip, int steps)
   {

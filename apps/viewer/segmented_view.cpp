@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace pcl_mrf_planes::viewer {
@@ -50,6 +51,18 @@ std::vector<PlaneDeviations> deviationsOf(const Segmentation& segmentation)
   return deviations;
 }
 
+/// Works something out when it is asked for the first time: every picture asks again.
+template <typename Work>
+auto once(const Work& work)
+{
+  const auto result = std::make_shared<std::optional<decltype(work())>>();
+  return [work, result] {
+    if (!*result)
+      *result = work();
+    return **result;
+  };
+}
+
 } // namespace
 
 double SegmentedView::totalMs() const
@@ -80,12 +93,12 @@ SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
   view.labels = segmentation->getResult().labels;
   view.planes = planesOf(*segmentation, models, centroids);
   view.stage_ms = segmentation->getReport().stage_ms;
-  view.confidence = [segmentation] {
+  view.confidence = once([segmentation] {
     std::vector<float> confidence;
     segmentation->computeConfidence(confidence);
     return confidence;
-  };
-  view.deviations = [segmentation] { return deviationsOf(*segmentation); };
+  });
+  view.deviations = once([segmentation] { return deviationsOf(*segmentation); });
   return view;
 }
 

@@ -110,24 +110,17 @@ private:
   std::vector<int> labels_;
 };
 
-/// Sums of the cells of each label, band by band of the image.
+/// Sums of the cells of each label.
 std::vector<TileSums> sumLabels(const TileLevel& cells, const std::vector<int>& labels,
                                 std::size_t count, unsigned int threads)
 {
-  const Bands bands(cells.rows, 4);
-  std::vector<std::vector<TileSums>> sums(static_cast<std::size_t>(bands.count));
-  parallelParts(bands.count, threads, [&](int band) {
-    std::vector<TileSums>& of_band = sums[static_cast<std::size_t>(band)];
-    of_band.resize(count);
-    for (std::size_t i = cells.at(0, bands.begin(band));
-         i < cells.at(0, bands.begin(band + 1)); ++i)
-      if (labels[i] >= 0)
-        of_band[static_cast<std::size_t>(labels[i])] += cells.sums[i];
-  });
-  for (std::size_t band = 1; band < sums.size(); ++band)
-    for (std::size_t k = 0; k < count; ++k)
-      sums[0][k] += sums[band][k];
-  return std::move(sums[0]);
+  return sumOfBands(cells.rows, threads, std::vector<TileSums>(count),
+                    [&](int first, int last, std::vector<TileSums>& sums) {
+                      for (std::size_t i = cells.at(0, first); i < cells.at(0, last);
+                           ++i)
+                        if (labels[i] >= 0)
+                          sums[static_cast<std::size_t>(labels[i])] += cells.sums[i];
+                    });
 }
 
 } // namespace

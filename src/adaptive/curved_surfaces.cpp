@@ -188,7 +188,12 @@ public:
   , largest_(parameters.fan_share * static_cast<double>(points.countValid()))
   , bends_(measureBends(points, image.labels, regions.planes, threads))
   {
-    BorderFinder finder = findBorders(points, image, threads);
+    BorderFinder finder = sumOfBands(
+        points.height, threads,
+        BorderFinder(points, regions, image.labels, parameters.fan_angle * DEGREE),
+        [&](int first, int last, BorderFinder& found) {
+          found.look(image.runs, first, last);
+        });
     fan_ = fanSizes(finder.borders, regions, largest_, noise, parameters);
     wide_fan_ = fanSizes(finder.borders, regions, WIDE * largest_, noise, parameters);
     goes_on_ = std::move(finder.goes_on);
@@ -202,22 +207,6 @@ public:
   }
 
 private:
-  BorderFinder findBorders(const OrganizedPoints& points, const LabelledPoints& image,
-                           unsigned int threads) const
-  {
-    const Bands bands(points.height, 4);
-    std::vector<BorderFinder> parts(
-        static_cast<std::size_t>(bands.count),
-        {points, regions_, image.labels, parameters_.fan_angle * DEGREE});
-    parallelParts(bands.count, threads, [&](int band) {
-      parts[static_cast<std::size_t>(band)].look(image.runs, bands.begin(band),
-                                                 bands.begin(band + 1));
-    });
-    for (std::size_t part = 1; part < parts.size(); ++part)
-      parts[0] += parts[part];
-    return std::move(parts[0]);
-  }
-
   /// A turn counts for as much as the bend stands out of the noise: for all of it where
   /// the quadric explains everything, for a third where that is a tenth of the variance.
   static double clearTurn(const Bend& bend)

@@ -46,6 +46,12 @@ public:
     }
   }
 
+  LabelSums& operator+=(const LabelSums& other)
+  {
+    addTo(sums, other.sums);
+    return *this;
+  }
+
   std::vector<TileSums> sums;
 
 private:
@@ -99,17 +105,12 @@ std::vector<TileSums> sumLabels(const OrganizedPoints& points, const TileLevel& 
                                 const std::vector<std::uint16_t>& labels,
                                 std::size_t count, unsigned int threads)
 {
-  const Bands bands(cells.rows, 4);
-  std::vector<LabelSums> parts(static_cast<std::size_t>(bands.count),
-                               LabelSums(points, cells, labels, count));
-  parallelParts(bands.count, threads, [&](int band) {
-    for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
-      parts[static_cast<std::size_t>(band)].addCells(row);
-  });
-  for (std::size_t part = 1; part < parts.size(); ++part)
-    for (std::size_t k = 0; k < count; ++k)
-      parts[0].sums[k] += parts[part].sums[k];
-  return std::move(parts[0].sums);
+  return sumOfBands(cells.rows, threads, LabelSums(points, cells, labels, count),
+                    [](int first, int last, LabelSums& sums) {
+                      for (int row = first; row < last; ++row)
+                        sums.addCells(row);
+                    })
+      .sums;
 }
 
 } // namespace

@@ -123,20 +123,16 @@ std::vector<Bend> measureBends(const OrganizedPoints& points,
         sums[k].add(points.x[i], points.y[i], points.z[i]);
     }
   };
-  const Bands bands((points.height + 1) / 2, 4);
-  std::vector<std::vector<QuadricSums>> sums(
-      static_cast<std::size_t>(bands.count),
-      std::vector<QuadricSums>(planes.begin(), planes.end()));
-  parallelParts(bands.count, threads, [&](int band) {
-    for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
-      addRow(2 * static_cast<std::size_t>(row), sums[static_cast<std::size_t>(band)]);
-  });
+  const auto sums =
+      sumOfBands((points.height + 1) / 2, threads,
+                 std::vector<QuadricSums>(planes.begin(), planes.end()),
+                 [&](int first, int last, std::vector<QuadricSums>& of_rows) {
+                   for (int row = first; row < last; ++row)
+                     addRow(2 * static_cast<std::size_t>(row), of_rows);
+                 });
   std::vector<Bend> bends;
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    for (std::size_t band = 1; band < sums.size(); ++band)
-      sums[0][k] += sums[band][k];
-    bends.push_back(sums[0][k].bend());
-  }
+  for (const QuadricSums& sum : sums)
+    bends.push_back(sum.bend());
   return bends;
 }
 
