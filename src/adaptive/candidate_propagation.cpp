@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/active_strips.h"
 #include "adaptive/candidate_field.h"
 #include "threads.h"
 
@@ -77,26 +78,22 @@ public:
   , blocks_(field.blocks)
   , received_(field.data.size())
   , places_(field.active.size())
-  , band_(static_cast<std::size_t>(field.blocks.rows) + 1, 0)
+  , strips_(field, threadCount(threads))
   {
-    for (const std::size_t block : field.active)
-      ++band_[block / static_cast<std::size_t>(blocks_.columns) + 1];
-    for (std::size_t row = 1; row < band_.size(); ++row)
-      band_[row] += band_[row - 1];
     parallelRows(blocks_.rows, threads, [&](int row) {
-      for (std::size_t a = firstOf(row); a < firstOf(row + 1); ++a)
+      for (std::size_t a = strips_.first(row, 0); a < strips_.first(row + 1, 0); ++a)
         settleIn(a, row);
     });
-    splitRows();
   }
 
   /// One pass: messages within each row, and on to the next row.
   void run(bool downwards)
   {
-    staggeredSteps(strips_, f_.height, threads_, [&](int strip, int step) {
+    staggeredSteps(strips_.count(), f_.height, threads_, [&](int strip, int step) {
       const int y = downwards ? step : f_.height - 1 - step;
       const int row = y / static_cast<int>(SIDE);
-      for (std::size_t a = firstOf(row, strip); a < firstOf(row, strip + 1); ++a)
+      for (std::size_t a = strips_.first(row, strip); a < strips_.first(row, strip + 1);
+           ++a)
         sendFrom(a, static_cast<std::size_t>(y) % SIDE, downwards ? BELOW : ABOVE);
     });
   }
@@ -114,41 +111,6 @@ public:
   }
 
 private:
-  /// Number of the first active block of a row of blocks, or of those after it.
-  std::size_t firstOf(int row) const { return band_[static_cast<std::size_t>(row)]; }
-  /// The same of a strip of that row.
-  std::size_t firstOf(int row, int strip) const
-  {
-    return first_in_strip_[static_cast<std::size_t>(row * (strips_ + 1) + strip)];
-  }
-
-  /// Upright strips with about as many active blocks each, one for each thread.
-  void splitRows()
-  {
-    const auto columns = static_cast<std::size_t>(blocks_.columns);
-    std::vector<std::size_t> left_of(columns + 1, 0);
-    for (const std::size_t block : f_.active)
-      ++left_of[block % columns + 1];
-    for (std::size_t c = 0; c < columns; ++c)
-      left_of[c + 1] += left_of[c];
-    strips_ = Bands(blocks_.columns, threadCount(threads_)).count;
-    std::vector<std::size_t> border;
-    for (int strip = 0; strip < strips_; ++strip) {
-      const std::size_t wanted = f_.active.size() * static_cast<std::size_t>(strip) /
-                                 static_cast<std::size_t>(strips_);
-      border.push_back(static_cast<std::size_t>(
-          std::lower_bound(left_of.begin(), left_of.end(), wanted) - left_of.begin()));
-    }
-    for (std::size_t row = 0; row + 1 < band_.size(); ++row) {
-      const auto from = f_.active.begin() + static_cast<std::ptrdiff_t>(band_[row]);
-      const auto to = f_.active.begin() + static_cast<std::ptrdiff_t>(band_[row + 1]);
-      for (const std::size_t column : border)
-        first_in_strip_.push_back(static_cast<std::size_t>(
-            std::lower_bound(from, to, row * columns + column) - f_.active.begin()));
-      first_in_strip_.push_back(band_[row + 1]);
-    }
-  }
-
   /// Finds the neighbours of a block, and what the settled ones among them say.
   void settleIn(std::size_t a, int row)
   {
@@ -307,10 +269,8 @@ private:
   unsigned int threads_;
   const CandidateBlocks& blocks_;
   std::vector<Messages> received_;
-  std::vector<Place> places_;     ///< of the active blocks
-  std::vector<std::size_t> band_; ///< first active block of each row of blocks
-  int strips_ = 1;
-  std::vector<std::size_t> first_in_strip_; ///< by row of blocks and strip
+  std::vector<Place> places_; ///< of the active blocks
+  ActiveStrips strips_;
 };
 
 /// Labels of a row of an active block: those of the least beliefs.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/plane_merging.h"
+#include "adaptive/cost_queue.h"
 #include "adaptive/region_graph.h"
 #include "threads.h"
 
@@ -7,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
@@ -29,166 +29,9 @@ bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
 
 namespace {
 
-/// Takes tiles of a part of the image level by level, where none of a larger one lies yet.
-class TileSelection {
-public:
-  /// \param cell_region region of each cell of the image, none yet in this part
-  TileSelection(const TileLevel& cells, const NoiseLaw& noise,
-                const AdaptiveParameters& parameters, std::vector<int>& cell_region)
-  : cells_(cells)
-  , noise_(noise)
-  , parameters_(parameters)
-  , cell_region_(cell_region)
-  {}
-
-  void addRow(const TileLevel& level, int row)
-  {
-    findFree(level, row);
-    if (level.planes.empty()) {
-      planes_.resize(free_.size());
-      fitPlanes(sums_.data(), sums_.size(), planes_.data());
-    }
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      const FittedPlane& plane =
-          level.planes.empty() ? planes_[k] : level.planes[level.at(free_[k], row)];
-      if (isFlat(plane))
-        add(level, free_[k], row, plane);
-    }
-  }
-
-  FittedRegions regions;
-
-private:
-  /// Columns of a row of tiles that no larger tile covers.
-  void findFree(const TileLevel& level, int row)
-  {
-    const int k = level.side / CELL;
-    free_.clear();
-    sums_.clear();
-    for (int column = 0; column < level.columns; ++column) {
-      const std::size_t tile = level.at(column, row);
-      if (cell_region_[cells_.at(column * k, row * k)] >= 0 ||
-          !isFilled(level, tile, parameters_))
-        continue;
-      free_.push_back(column);
-      if (level.planes.empty())
-        sums_.push_back(level.sums[tile]);
-    }
-  }
-
-  bool isFlat(const FittedPlane& plane) const
-  {
-    if (plane.n < 4)
-      return false;
-    const double tolerance = parameters_.tile_tolerance * parameters_.tile_tolerance;
-    const double mse = plane.mse * plane.n / (plane.n - 3);
-    return mse <= tolerance * allowedVariance(plane, noise_, parameters_);
-  }
-
-  void add(const TileLevel& level, int column, int row, const FittedPlane& plane)
-  {
-    const int id = static_cast<int>(regions.planes.size());
-    regions.add(plane, level.sums[level.at(column, row)]);
-    const int k = level.side / CELL;
-    for (int r = row * k; r < std::min((row + 1) * k, cells_.rows); ++r)
-      for (int c = column * k; c < std::min((column + 1) * k, cells_.columns); ++c)
-        cell_region_[cells_.at(c, r)] = id;
-  }
-
-  const TileLevel& cells_;
-  const NoiseLaw& noise_;
-  const AdaptiveParameters& parameters_;
-  std::vector<int>& cell_region_;
-  // of the row at hand
-  std::vector<int> free_;
-  std::vector<TileSums> sums_;
-  std::vector<FittedPlane> planes_;
-};
-
-/// Where the tiles of the levels lie among those that one part of the image selected.
-using LevelStarts = std::vector<std::size_t>;
-
-/// Numbers the tiles of all parts anew: the largest first, those of one level part by part.
-class TileNumbering {
-public:
-  TileNumbering(std::vector<TileSelection>& parts,
-                const std::vector<LevelStarts>& starts)
-  : number_(parts.size())
-  {
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      number_[k].resize(parts[k].regions.planes.size());
-    for (std::size_t level = 0; level + 1 < starts[0].size(); ++level)
-      for (std::size_t k = 0; k < parts.size(); ++k)
-        for (std::size_t i = starts[k][level]; i < starts[k][level + 1]; ++i)
-          number_[k][i] = count_++;
-  }
-
-  std::size_t count() const { return static_cast<std::size_t>(count_); }
-  int operator()(std::size_t part, std::size_t tile) const
-  {
-    return number_[part][tile];
-  }
-
-private:
-  std::vector<std::vector<int>> number_;
-  int count_ = 0;
-};
-
-} // namespace
-
-TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
-                        const AdaptiveParameters& parameters, unsigned int threads)
-{
-  const auto smallest = static_cast<std::size_t>(parameters.smallest_level);
-  const TileLevel& cells = pyramid[0];
-  const Bands bands(pyramid.back().rows);
-  TileRegions out;
-  out.cell_region.assign(cells.sums.size(), -1);
-  std::vector<TileSelection> parts(static_cast<std::size_t>(bands.count),
-                                   {cells, noise, parameters, out.cell_region});
-  std::vector<LevelStarts> starts(parts.size(), {0});
-  parallelParts(bands.count, threads, [&](int band) {
-    const auto part = static_cast<std::size_t>(band);
-    for (std::size_t l = pyramid.size(); l-- > smallest;) {
-      const int rows = 1 << (pyramid.size() - 1 - l); // in one of the largest tiles
-      const int end = std::min(bands.begin(band + 1) * rows, pyramid[l].rows);
-      for (int row = bands.begin(band) * rows; row < end; ++row)
-        parts[part].addRow(pyramid[l], row);
-      starts[part].push_back(parts[part].regions.planes.size());
-    }
-  });
-
-  const TileNumbering number(parts, starts);
-  out.planes.resize(number.count());
-  out.sums.resize(number.count());
-  const int cell_rows = pyramid.back().side / CELL;
-  parallelParts(bands.count, threads, [&](int band) {
-    const auto part = static_cast<std::size_t>(band);
-    const FittedRegions& found = parts[part].regions;
-    for (std::size_t i = 0; i < found.planes.size(); ++i) {
-      const auto id = static_cast<std::size_t>(number(part, i));
-      out.planes[id] = found.planes[i];
-      out.sums[id] = found.sums[i];
-    }
-    const int end = std::min(bands.begin(band + 1) * cell_rows, cells.rows);
-    for (std::size_t cell = cells.at(0, bands.begin(band) * cell_rows);
-         cell < cells.at(0, end); ++cell)
-      if (int& region = out.cell_region[cell]; region >= 0)
-        region = number(part, static_cast<std::size_t>(region));
-  });
-  return out;
-}
-
-namespace {
-
-/// Rows of cells, half open.
-struct CellRows {
-  int begin, end;
-};
-
 /// Tiles that lie side by side in some rows of cells.
 void linkInside(const std::vector<int>& cell_region, const TileLevel& cells,
-                CellRows rows, Regions& regions)
+                TileRows rows, Regions& regions)
 {
   const auto touch = [&](int a, int b) {
     if (a >= 0 && b >= 0 && a != b)
@@ -218,7 +61,7 @@ void linkAcross(const std::vector<int>& cell_region, const TileLevel& cells, int
 
 /// The tiles of some rows of cells, in the order of their numbers.
 std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& cells,
-                         CellRows rows, std::size_t tiles)
+                         TileRows rows, std::size_t tiles)
 {
   std::vector<std::uint8_t> is_in(tiles, 0);
   for (std::size_t cell = cells.at(0, rows.begin); cell < cells.at(0, rows.end); ++cell)
@@ -230,62 +73,6 @@ std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& c
       found.push_back(static_cast<int>(tile));
   return found;
 }
-
-/// A queue of numbers by cost, the least first, those of costs within three per cent of one
-/// another as one: the last of them first. Costs at or below the least power of two are
-/// one, too. All operations are O(1) but for steps over empty buckets.
-class CostQueue {
-public:
-  explicit CostQueue(float most)
-  : newest_(bucketOf(most) + 1, NOTHING)
-  , first_(newest_.size())
-  {}
-
-  bool empty()
-  {
-    while (first_ < newest_.size() && newest_[first_] == NOTHING)
-      ++first_;
-    return first_ == newest_.size();
-  }
-
-  void push(float cost, std::uint32_t number)
-  {
-    const std::size_t bucket = bucketOf(cost);
-    if (number >= older_.size())
-      older_.resize(number + 1);
-    older_[number] = newest_[bucket];
-    newest_[bucket] = number;
-    first_ = std::min(first_, bucket);
-  }
-
-  /// Of a queue that is not empty, as empty() has just told.
-  std::uint32_t pop()
-  {
-    const std::uint32_t number = newest_[first_];
-    newest_[first_] = older_[number];
-    return number;
-  }
-
-private:
-  static constexpr std::uint32_t NOTHING = UINT32_MAX;
-
-  /// Exponent and upper bits of the mantissa: their order is that of the numbers.
-  static std::size_t bucketOf(float cost)
-  {
-    constexpr float LEAST = 1.0F / (1U << 20U);
-    constexpr std::uint32_t LEFT_OUT = 18; // of the 23 bits of the mantissa
-    const auto bits = [](float number) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, &number, sizeof(word));
-      return word >> LEFT_OUT;
-    };
-    return bits(std::max(cost, LEAST)) - bits(LEAST);
-  }
-
-  std::vector<std::uint32_t> newest_; ///< of each bucket
-  std::vector<std::uint32_t> older_;  ///< the next of the same bucket, by number
-  std::size_t first_;                 ///< no bucket before it holds any
-};
 
 /// Merges pairs of regions, the most alike first.
 class Agglomeration {
@@ -444,9 +231,8 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
   // Between the halves of the image nothing merges before each of them is done.
   const Bands halves(pyramid.back().rows, 2);
   const auto rows = [&](int half) {
-    const int side = pyramid.back().side / CELL;
-    return CellRows{halves.begin(half) * side,
-                    std::min(halves.begin(half + 1) * side, cells.rows)};
+    return rowsInside(cells, pyramid.back(),
+                      {halves.begin(half), halves.begin(half + 1)});
   };
   for (int half = 0; half < halves.count; ++half)
     linkInside(cell_region, cells, rows(half), regions);

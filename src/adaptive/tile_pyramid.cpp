@@ -25,11 +25,6 @@ TileSums sumCutTile(const OrganizedPoints& points, int u0, int v0)
   return s;
 }
 
-/// Some rows of tiles of a level, half open.
-struct TileRows {
-  int begin, end;
-};
-
 void sumCells(const OrganizedPoints& points, TileRows rows, TileLevel& cells)
 {
   const auto width = static_cast<std::size_t>(points.width);
@@ -91,8 +86,7 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
   // A row of the largest tiles with all that it is made of stays in the nearest caches.
   parallelParts(pyramid.back().rows, threads, [&](int row) {
     for (std::size_t l = 0; l < pyramid.size(); ++l) {
-      const int rows = 1 << (pyramid.size() - 1 - l);
-      const TileRows part = {row * rows, std::min((row + 1) * rows, pyramid[l].rows)};
+      const TileRows part = rowsInside(pyramid[l], pyramid.back(), {row, row + 1});
       if (l == 0) {
         sumCells(points, part, pyramid[l]);
         continue;

@@ -4,6 +4,9 @@
 #include <pcl_mrf_planes/adaptive_parameters.h>
 #include <pcl_mrf_planes/organized_points.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace pcl_mrf_planes::adaptive {
 
 /// Side of the smallest tiles, points.
@@ -25,6 +28,20 @@ struct TileLevel {
            static_cast<std::size_t>(column);
   }
 };
+
+/** \brief Some rows of the tiles of a level, half open. */
+struct TileRows {
+  int begin, end;
+};
+
+/** \brief The rows of a level that some rows of larger tiles are made of. */
+inline TileRows rowsInside(const TileLevel& level, const TileLevel& larger,
+                           TileRows rows)
+{
+  const int side = larger.side / level.side;
+  return {std::min(rows.begin * side, level.rows),
+          std::min(rows.end * side, level.rows)};
+}
 
 /** \brief Whether enough points of a tile are valid for it to have a plane. */
 bool isFilled(const TileLevel& level, std::size_t tile,

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "adaptive/candidate_field.h"
+#include "threads.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace pcl_mrf_planes::adaptive {
+
+/// Upright strips of a field with about as many active blocks each.
+class ActiveStrips {
+public:
+  ActiveStrips(const CandidateField& field, int strips)
+  : strips_(Bands(field.blocks.columns, strips).count)
+  {
+    const auto columns = static_cast<std::size_t>(field.blocks.columns);
+    std::vector<std::size_t> border = borders(field);
+    border.push_back(columns);
+    const auto begin = field.active.begin();
+    for (int row = 0; row <= field.blocks.rows; ++row)
+      for (const std::size_t column : border)
+        first_.push_back(static_cast<std::size_t>(
+            std::lower_bound(begin, field.active.end(),
+                             static_cast<std::size_t>(row) * columns + column) -
+            begin));
+  }
+
+  int count() const { return strips_; }
+
+  /// Number of the first active block of a strip in a row of blocks, or of those after it;
+  /// of row 0 to the number of rows, strip 0 to count().
+  std::size_t first(int row, int strip) const
+  {
+    return first_[static_cast<std::size_t>(row * (strips_ + 1) + strip)];
+  }
+
+private:
+  /// The first column of each strip.
+  std::vector<std::size_t> borders(const CandidateField& field) const
+  {
+    const auto columns = static_cast<std::size_t>(field.blocks.columns);
+    std::vector<std::size_t> left_of(columns + 1, 0); // active blocks, by column
+    for (const std::size_t block : field.active)
+      ++left_of[block % columns + 1];
+    for (std::size_t c = 0; c < columns; ++c)
+      left_of[c + 1] += left_of[c];
+    std::vector<std::size_t> border;
+    for (int strip = 0; strip < strips_; ++strip) {
+      const std::size_t wanted = field.active.size() * static_cast<std::size_t>(strip) /
+                                 static_cast<std::size_t>(strips_);
+      border.push_back(static_cast<std::size_t>(
+          std::lower_bound(left_of.begin(), left_of.end(), wanted) - left_of.begin()));
+    }
+    return border;
+  }
+
+  int strips_;
+  std::vector<std::size_t> first_; ///< by row of blocks and strip
+};
+
+} // namespace pcl_mrf_planes::adaptive
