@@ -2,6 +2,7 @@
 #include "named_parameters.h"
 #include "studies.h"
 
+#include "option_values.h"
 #include "parameter_options.h"
 
 #include <cmath>
@@ -60,6 +61,19 @@ std::string shortText(double value)
   return text.str();
 }
 
+/// Whether a value is in the range of a parameter and goes together with the others' defaults.
+bool isValid(const apps::ParameterOption& option, const std::string& value)
+{
+  Parameters parameters;
+  try {
+    option.parse(parameters, value);
+  }
+  catch (const apps::UsageError&) {
+    return false;
+  }
+  return parameters.validate().empty();
+}
+
 /// Other values of a parameter, as text; none if it is no number, or 0.
 std::vector<std::string> otherValues(const apps::ParameterOption& option)
 {
@@ -78,9 +92,7 @@ std::vector<std::string> otherValues(const apps::ParameterOption& option)
         shortText(whole ? std::round(factor * value) : factor * value);
     if (!tried.insert(other).second)
       continue;
-    Parameters parameters;
-    option.parse(parameters, other);
-    if (parameters.validate().empty())
+    if (isValid(option, other))
       values.push_back(other);
   }
   return values;
