@@ -186,11 +186,14 @@ HWY_INLINE hn::Vec<D> FallingExponential(D d, hn::Vec<D> x)
   return hn::Mul(p, hn::BitCast(d, power));
 }
 
-void GapsToShares(float scale, const std::uint8_t* valid, std::size_t count,
-                  float* gaps)
+void GapsToShares(const GapExponent& exponent, const std::uint8_t* valid,
+                  std::size_t count, float* gaps)
 {
   ForEachVector(count, [&](auto d, std::size_t i) HWY_ATTR {
-    const auto x = hn::Mul(hn::LoadU(d, gaps + i), hn::Set(d, scale));
+    const auto gap = hn::LoadU(d, gaps + i);
+    const auto slope = hn::Add(hn::Set(d, exponent.linear),
+                               hn::Mul(hn::Set(d, exponent.squared), gap));
+    const auto x = hn::Mul(gap, slope);
     const auto one = hn::Set(d, 1.0f);
     const auto share = hn::Max(hn::Sub(one, FallingExponential(d, x)), hn::Zero(d));
     hn::StoreU(hn::IfThenElseZero(Where(d, valid + i), share), d, gaps + i);
@@ -222,10 +225,10 @@ void gapsOfEight(const GapCosts& costs, const GapRow& row,
   HWY_DYNAMIC_DISPATCH(GapsOfEight)(costs, row, candidates, count, gaps);
 }
 
-void gapsToShares(float scale, const std::uint8_t* valid, std::size_t count,
-                  float* gaps)
+void gapsToShares(const GapExponent& exponent, const std::uint8_t* valid,
+                  std::size_t count, float* gaps)
 {
-  HWY_DYNAMIC_DISPATCH(GapsToShares)(scale, valid, count, gaps);
+  HWY_DYNAMIC_DISPATCH(GapsToShares)(exponent, valid, count, gaps);
 }
 
 } // namespace pcl_mrf_planes::adaptive
