@@ -11,12 +11,15 @@
 #define HWY_TARGET_INCLUDE "adaptive/label_gap_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Has to come after foreach_target.h.
+#include "vector_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_mrf_planes::adaptive {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using pcl_mrf_planes::HWY_NAMESPACE::ForEachVector;
 
 constexpr std::size_t EIGHT = 8;
 
@@ -42,18 +45,6 @@ HWY_INLINE hn::Mask<D> Have(D d, std::uint16_t label, const std::uint16_t* label
   const Numbers<D> i32;
   const auto numbers = hn::PromoteTo(i32, hn::LoadU(Labels<D>(), labels));
   return hn::RebindMask(d, hn::Eq(numbers, hn::Set(i32, label)));
-}
-
-template <class Block>
-HWY_INLINE void ForEachVector(std::size_t count, Block&& block)
-{
-  const hn::ScalableTag<float> d;
-  const hn::CappedTag<float, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
-    block(d, i);
-  for (; i < count; ++i)
-    block(one, i);
 }
 
 void EdgePriceRow(const EdgePrices& prices, const float* a, const float* b,
