@@ -38,9 +38,12 @@ Json uncertaintyJson(const PlaneUncertainty& uncertainty)
     rows.push_back(row);
   }
   const Eigen::Vector4d& bias = uncertainty.bias;
-  return {{"covariance", rows},
-          {"bias", {bias[0], bias[1], bias[2], bias[3]}},
-          {"points_per_independent", uncertainty.points_per_independent}};
+  const Plane& plane = uncertainty.plane;
+  return {
+      {"coefficients", {plane.normal.x(), plane.normal.y(), plane.normal.z(), plane.d}},
+      {"covariance", rows},
+      {"bias", {bias[0], bias[1], bias[2], bias[3]}},
+      {"points_per_independent", uncertainty.points_per_independent}};
 }
 
 Json patchJson(const PlanePolygon& patch)

@@ -15,7 +15,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 import accuracy_studies as studies
 from accuracy_tables import (
-    COLOURS, DOC, METHODS, SETS, group, in_digits, is_ours, label_of, labelled,
+    DOC, LINES, METHODS, SETS, colour_of, group, in_digits, is_ours, label_of, labelled,
     markdown_table, mean_of, mean_over_sets, milliseconds, ordered_sets, ratio_of,
     read_rows, replace_block, save_plot, short, write_whole)
 
@@ -52,17 +52,21 @@ def peers_table(rows):
 
 
 def plot_quality_over_time(rows):
+    """A mark for each setting, with its name beside it; a method's are joined by a line."""
     figure, axes = plt.subplots(figsize=(9, 4.2), layout='constrained')
-    colours = dict(zip(group(rows, 'method'), COLOURS))
-    for (method, setting), frames in group(rows, 'method', 'setting').items():
-        quality = mean_over_sets(frames, lambda f: mean_of(f, 'pq'))
-        time = milliseconds(frames)
-        filled = setting in ('tuned', 'default')
-        axes.plot(time, quality, '*' if is_ours(method) else 'o',
-                  markersize=14 if is_ours(method) else 8, color=colours[method],
-                  markerfacecolor=colours[method] if filled else 'white',
-                  label=label_of(method, setting))
+    for method, of_method in group(rows, 'method').items():
+        settings = group(of_method, 'setting')
+        times = [milliseconds(frames) for frames in settings.values()]
+        qualities = [mean_over_sets(frames, lambda f: mean_of(f, 'pq'))
+                     for frames in settings.values()]
+        axes.plot(times, qualities, '*-' if is_ours(method) else 'o-', linewidth=0.6,
+                  markersize=14 if is_ours(method) else 7, color=colour_of(method),
+                  label=METHODS.get(method, method))
+        for setting, time, quality in zip(settings, times, qualities):
+            axes.annotate(setting, (time, quality), xytext=(8, 4),
+                          textcoords='offset points', fontsize=8, color=colour_of(method))
     axes.set_xscale('log')
+    axes.margins(x=0.15)
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.xaxis.set_major_formatter('{x:g}')
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -79,14 +83,13 @@ def plot_tolerance(rows):
     columns = [name for name in rows[0] if name.startswith('correct_')]
     tolerances = [float(name.split('_')[1]) for name in columns]
     figure, axes = plt.subplots(figsize=(9, 4.2), layout='constrained')
-    colours = dict(zip(group(rows, 'method'), COLOURS))
     for (method, setting), frames in group(rows, 'method', 'setting').items():
         if setting == 'published':
             continue
         shares = [mean_over_sets(frames, lambda f, c=column: ratio_of(f, c))
                   for column in columns]
-        axes.plot(tolerances, shares, '--' if setting == 'paper' else '-', marker='.',
-                  color=colours[method], label=label_of(method, setting))
+        axes.plot(tolerances, shares, LINES.get(setting, '-'), marker='.',
+                  color=colour_of(method), label=label_of(method, setting))
     axes.set_ylim(0, 1)
     axes.set_xlabel('tolerance of Hoover et al.')
     axes.set_ylabel('share of true planes found, mean of the sets')

@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 from matplotlib.ticker import NullFormatter
 
 from accuracy_tables import (
-    COLOURS, SETS, group, label_of, markdown_table, mean_of, mean_over_sets, ordered_sets,
+    COLOURS, LINES, SETS, colour_of, group, label_of, markdown_table, mean_of, mean_over_sets, ordered_sets,
     ratio_of, save_plot, short)
 
 # Panels of the sensitivity plot: the groups of adaptive_parameters.h.
@@ -22,7 +22,6 @@ PANELS = {
                         'bend-angle'],
     'Random field': [],  # and all others
 }
-LINES = ['-', '--', ':']
 
 
 def pq_of(rows):
@@ -94,10 +93,11 @@ def plot_sensitivity(usual, parameters):
             default, values = parameters[name]
             points = sorted(values.items())
             axes.plot([value / default for value, _ in points], [pq for _, pq in points],
-                      LINES[k // len(COLOURS)], marker='.', label=name,
+                      '--' if k >= len(COLOURS) else '-', marker='.', label=name,
                       color=COLOURS[k % len(COLOURS)])
         axes.axhline(usual, color='gray', linewidth=0.6)
         axes.set_title(panel, fontsize=9, loc='left')
+        axes.set_xlim(0.23, 4.3)
         axes.set_ylabel('mean PQ', fontsize=8)
         axes.set_ylim(usual - 0.2, usual + 0.03)  # what is below is far off anyway
         axes.grid(True, alpha=0.25)
@@ -142,12 +142,11 @@ def noise_levels(rows, kind):
 
 
 def plot_noise(axes, levels, label):
-    methods = list(dict.fromkeys(variant.split()[0] for variant in levels))
     for variant, values in levels.items():
         method, setting = variant.split()
         axes.plot(list(values), list(values.values()),
-                  '--' if setting == 'paper' else '-', marker='.',
-                  color=COLOURS[methods.index(method)], label=label_of(method, setting))
+                  LINES.get(setting, '-'), marker='.', color=colour_of(method),
+                  label=label_of(method, setting))
     axes.set_xlabel(label)
     axes.set_ylim(0, 1)
     axes.grid(True, alpha=0.25)

@@ -30,7 +30,10 @@ METHODS = {
     'opencv_rgbd_plane': 'cv::rgbd::RgbdPlane',
     'cgal_efficient_ransac': 'CGAL Efficient RANSAC',
 }
-COLOURS = ['#d62728', '#1f77b4', '#2ca02c', '#9467bd', '#ff7f0e', '#8c564b', '#17becf']
+COLOURS = ['#d62728', '#1f77b4', '#2ca02c', '#9467bd', '#ff7f0e', '#8c564b', '#17becf',
+           '#e377c2', '#bcbd22', '#7f7f7f']
+# Our profiles are of one colour.
+LINES = {'fast': '-.', 'paper': ':'}
 
 
 class Row(dict):
@@ -133,3 +136,9 @@ def label_of(method, setting):
 
 def is_ours(method):
     return method == 'mrf_planes'
+
+
+def colour_of(method):
+    """The same in every plot."""
+    names = list(METHODS)
+    return COLOURS[names.index(method) if method in names else len(names)]

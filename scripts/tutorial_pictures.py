@@ -15,6 +15,7 @@ import tempfile
 
 import matplotlib.pyplot as plt
 import numpy
+from matplotlib.colors import BoundaryNorm
 from PIL import Image
 
 from accuracy_tables import DOC
@@ -66,6 +67,17 @@ def read_pcd(path):
     return data.reshape(int(header['HEIGHT']), int(header['WIDTH']))
 
 
+def read_ply(path):
+    """Vertices of a binary PLY."""
+    content = path.read_bytes()
+    start = content.index(b'end_header')
+    header = [line.split() for line in content[:start].decode().splitlines()]
+    kinds = {'float': 'f4', 'uchar': 'u1', 'uint': 'u4'}
+    fields = [(line[2], kinds[line[1]]) for line in header if line[0] == 'property']
+    count = next(int(line[2]) for line in header if line[:2] == ['element', 'vertex'])
+    return numpy.frombuffer(content[content.index(b'\n', start) + 1:], fields, count)
+
+
 def gray_of(cloud):
     rgb = cloud['rgb'].view('u4')
     return ((rgb >> 16 & 255) + (rgb >> 8 & 255) + (rgb & 255)) / 765 * 0.6 + 0.4
@@ -89,6 +101,22 @@ class Tutorial:
                  '--models', 'report.json', '--label-image', 'labels.png', *arguments)
         return json.loads((self.folder / 'report.json').read_text())
 
+    def learn_colours(self):
+        """Those that the apps give to labels: of all the small planes of a scene."""
+        self.segment('--ply', 'coloured.ply', '--min-evidence', '0', '--min-points', '8',
+                     '--fan-parts', '0', '--bend-angle', '720')
+        points = read_ply(self.folder / 'coloured.ply')
+        labels, first = numpy.unique(points['label'], return_index=True)
+        self.colours = numpy.full((labels.max() + 1, 3), 128 / 255)
+        for name, channel in (('red', 0), ('green', 1), ('blue', 2)):
+            self.colours[labels, channel] = points[name][first] / 255
+
+    def colour_of(self, labels):
+        """Those of one label or an image of labels: 0 is gray; they start anew after the last."""
+        numbers = numpy.asarray(labels).astype(int)
+        count = len(self.colours) - 1
+        return self.colours[numpy.where(numbers > 0, (numbers - 1) % count + 1, 0)]
+
     def image(self, name):
         return numpy.array(Image.open(self.folder / name))
 
@@ -105,7 +133,7 @@ def uncertainty(tutorial):
         if plane['uncertainty'] is None:
             continue
         inside = labels == plane['label']
-        abcd = numpy.array(plane['coefficients'])
+        abcd = numpy.array(plane['uncertainty']['coefficients'])
         ray = rays()[inside]
         points = -abcd[3] / (ray @ abcd[:3])[:, None] * ray
         ones = numpy.column_stack([points, numpy.ones(len(points))])
@@ -115,7 +143,8 @@ def uncertainty(tutorial):
     figure, (axes,) = picture_axes()
     shown = axes.imshow(sigma, cmap='viridis', norm='log', interpolation='nearest')
     figure.colorbar(shown, ax=axes, shrink=0.8, format='{x:g}',
-                    label='standard deviation of the plane, mm')
+                    label='standard deviation, mm')
+    axes.set_title('how well the place of each plane is known, along its normal')
     save(figure, 'uncertainty')
 
 
@@ -129,9 +158,8 @@ def outlines(tutorial):
     figure, axes = picture_axes(2)
     for one in axes:
         one.imshow(gray_of(tutorial.cloud()), cmap='gray', vmin=0, vmax=1)
-    colours = plt.get_cmap('tab20').colors
     for plane in report['planes']:
-        colour = colours[plane['label'] % len(colours)]
+        colour = tutorial.colour_of(plane['label'])
         axes[1].plot(*close(plane['hull']).T, '-', color=colour, linewidth=1.5)
         for patch in plane['patches']:
             outer = close(patch['outer'])
@@ -160,11 +188,12 @@ def creases(tutorial):
 def confidence(tutorial):
     tutorial.segment('--confidence-image', 'confidence.png')
     figure, axes = picture_axes(2)
-    axes[0].imshow(tutorial.image('labels.png') % 20, cmap='tab20',
+    axes[0].imshow(tutorial.colour_of(tutorial.image('labels.png')),
                    interpolation='nearest')
-    shown = axes[1].imshow(tutorial.image('confidence.png') / 65535, cmap='magma', vmin=0,
-                           vmax=1, interpolation='nearest')
-    figure.colorbar(shown, ax=axes[1], shrink=0.8)
+    limits = [0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.97, 1]
+    shown = axes[1].imshow(tutorial.image('confidence.png') / 65535, cmap='magma',
+                           norm=BoundaryNorm(limits, 256), interpolation='nearest')
+    figure.colorbar(shown, ax=axes[1], shrink=0.8, format='{x:g}')
     axes[0].set_title('labels')
     axes[1].set_title('confidence')
     save(figure, 'confidence')
@@ -185,7 +214,7 @@ def projection(tutorial):
     axes.set_xlabel('x, metres')
     axes.set_ylabel('z, metres')
     axes.grid(True, alpha=0.25)
-    axes.legend()
+    axes.legend(markerscale=4)
     save(figure, 'projection')
 
 
@@ -198,7 +227,7 @@ def objects(tutorial):
         tutorial.run('examples/objects_on_table', 'in.pcd', method, 'objects.pcd')
         found = tutorial.cloud('objects.pcd')['label'].astype(int)
         one.imshow(gray_of(tutorial.cloud()), cmap='gray', vmin=0, vmax=1)
-        one.imshow(numpy.ma.masked_equal(found, 0) % 20, cmap='tab20', alpha=0.75,
+        one.imshow(numpy.dstack([tutorial.colour_of(found), 0.75 * (found > 0)]),
                    interpolation='nearest')
         one.set_title(f'objects with the planes of {title}')
     save(figure, 'objects')
@@ -215,7 +244,7 @@ def denoising(tutorial):
     figure, axes = picture_axes(2)
     for one, name, title in ((axes[0], 'noisy.png', 'three in ten pixels are chance'),
                              (axes[1], 'clean.png', 'after belief propagation')):
-        one.imshow(tutorial.image(name), cmap='tab20', interpolation='nearest')
+        one.imshow(tutorial.colour_of(tutorial.image(name) // 20), interpolation='nearest')
         one.set_title(title)
     save(figure, 'denoising')
 
@@ -226,6 +255,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         tutorial = Tutorial(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(folder))
         tutorial.scene('--seed', '0', '--noise', '1')
+        tutorial.learn_colours()
         for make in (uncertainty, outlines, creases, confidence, projection, objects,
                      denoising):
             make(tutorial)

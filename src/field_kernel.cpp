@@ -9,6 +9,8 @@
 #define HWY_TARGET_INCLUDE "field_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Has to come after foreach_target.h.
+#include "vector_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_mrf_planes {
@@ -28,23 +30,10 @@ HWY_INLINE hn::Vec<Units<D>> mask(D, const std::uint8_t* valid)
   return hn::Sub(hn::Zero(u16), ones);
 }
 
-/// Calls block(d, i) for vectors of points and then for the single ones that are left.
-template <class Block>
-HWY_INLINE void forEachBlock(std::size_t count, Block&& block)
-{
-  const hn::ScalableTag<float> d;
-  const hn::CappedTag<float, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
-    block(d, i);
-  for (; i < count; ++i)
-    block(one, i);
-}
-
 void DataTermRow(const DataTerm& term, const float* x, const float* y, const float* z,
                  const std::uint8_t* valid, std::size_t count, std::uint16_t* cost)
 {
-  forEachBlock(count, [&](auto d, std::size_t i) HWY_ATTR {
+  ForEachVector(count, [&](auto d, std::size_t i) HWY_ATTR {
     const Units<decltype(d)> u16;
     const auto ax = hn::Mul(hn::Set(d, term.a), hn::LoadU(d, x + i));
     const auto by = hn::Mul(hn::Set(d, term.b), hn::LoadU(d, y + i));
@@ -61,7 +50,7 @@ void EdgeWeightRow(const float* depth, const float* other_depth,
                    float scale, std::size_t count, std::uint16_t* weight)
 {
   constexpr float MOST = 65534.0f;
-  forEachBlock(count, [&](auto d, std::size_t i) HWY_ATTR {
+  ForEachVector(count, [&](auto d, std::size_t i) HWY_ATTR {
     const Units<decltype(d)> u16;
     const auto step =
         hn::Abs(hn::Sub(hn::LoadU(d, depth + i), hn::LoadU(d, other_depth + i)));

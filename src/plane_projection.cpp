@@ -19,8 +19,10 @@ Eigen::Vector3d projectPoint(const Eigen::Vector3d& point, const Plane& plane,
                              ProjectionWay way)
 {
   const double facing = plane.normal.dot(point);
-  if (way == ProjectionWay::RAY && std::abs(facing) > GRAZING * point.norm())
-    return -plane.d / facing * point;
+  const double factor = -plane.d / facing;
+  if (way == ProjectionWay::RAY && std::abs(facing) > GRAZING * point.norm() &&
+      factor > 0.0)
+    return factor * point;
   return point - plane.distance(point) * plane.normal;
 }
 

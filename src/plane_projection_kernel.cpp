@@ -11,6 +11,8 @@
 #define HWY_TARGET_INCLUDE "plane_projection_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Has to come after foreach_target.h.
+#include "vector_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_mrf_planes {
@@ -37,18 +39,20 @@ HWY_INLINE void ProjectLanes(D d, const ProjectionTarget& target, std::size_t i,
   const V nx = hn::Set(d, target.normal[0]);
   const V ny = hn::Set(d, target.normal[1]);
   const V nz = hn::Set(d, target.normal[2]);
-  const V x = hn::Sub(hn::PromoteTo(d, hn::LoadU(f, batch.x + i)), ox);
-  const V y = hn::Sub(hn::PromoteTo(d, hn::LoadU(f, batch.y + i)), oy);
-  const V z = hn::Sub(hn::PromoteTo(d, hn::LoadU(f, batch.z + i)), oz);
+  const PointLanes<V> p = LoadPoints(d, batch.x, batch.y, batch.z, i);
+  const V x = hn::Sub(p.x, ox);
+  const V y = hn::Sub(p.y, oy);
+  const V z = hn::Sub(p.z, oz);
   const V facing = hn::Add(hn::Mul(nx, x), hn::Add(hn::Mul(ny, y), hn::Mul(nz, z)));
   const V squared = hn::Add(hn::Mul(x, x), hn::Add(hn::Mul(y, y), hn::Mul(z, z)));
   const V least = hn::Mul(hn::Set(d, target.grazing), hn::Sqrt(squared));
-  const auto along_ray = hn::Gt(hn::Abs(facing), least);
   const V factor = hn::Div(hn::Set(d, -target.d), facing);
+  const auto along_ray =
+      hn::And(hn::Gt(hn::Abs(facing), least), hn::Gt(factor, hn::Zero(d)));
   const V distance = hn::Add(facing, hn::Set(d, target.d));
-  const auto moved = [&](V p, V n, V o) HWY_ATTR {
-    const V q =
-        hn::IfThenElse(along_ray, hn::Mul(factor, p), hn::Sub(p, hn::Mul(distance, n)));
+  const auto moved = [&](V at, V n, V o) HWY_ATTR {
+    const V q = hn::IfThenElse(along_ray, hn::Mul(factor, at),
+                               hn::Sub(at, hn::Mul(distance, n)));
     return hn::DemoteTo(f, hn::Add(q, o));
   };
   hn::StoreU(moved(x, nx, ox), f, batch.x + i);

@@ -9,7 +9,8 @@ namespace pcl_mrf_planes {
 struct ProjectionTarget {
   double normal[3], d;
   double origin[3];
-  /// Sine of the least angle between ray and plane for a point to move along its ray;
+  /// Sine of the least angle between ray and plane for a point to move along its ray, if the
+  /// plane is ahead on it;
   /// otherwise it moves along the normal. Infinite: all move along the normal.
   double grazing;
 };

@@ -5,6 +5,7 @@
 
 #include "label_runs.h"
 #include "plane_uncertainty_kernel.h"
+#include "region_interior.h"
 
 #include <Eigen/Dense>
 
@@ -17,7 +18,9 @@ namespace pcl_mrf_planes {
 
 namespace {
 
-constexpr std::size_t FEWEST_POINTS = 4;
+constexpr double FEWEST_POINTS = 4;
+/// Points off the border of a region that its plane is fitted to by themselves.
+constexpr double FEWEST_INSIDE = 60;
 /// Spread of points across the narrow side of a plane, over that along its normal, that
 /// makes it a plane.
 constexpr double NARROWEST = 2.0;
@@ -71,24 +74,29 @@ public:
   , stated_(static_cast<std::size_t>(side_))
   {}
 
-  Evidence add(const PlaneRegion& region)
+  /// Of the points off the border, or of all if the others determine no plane.
+  Evidence add(const PlaneRegion& region, const RegionInterior& interior)
   {
     Evidence evidence;
-    const bool good = fit(region, evidence);
-    evidence.result.valid = good;
-    if (!good)
+    evidence.result.valid = interior.n >= FEWEST_INSIDE && fit(interior, evidence);
+    if (evidence.result.valid) {
+      sum(interior, evidence);
       return evidence;
-    std::fill(blocks_.begin(), blocks_.end(), Block());
-    sum(region, evidence);
-    compareBlocks(evidence);
+    }
+    const RegionInterior whole = {runsOfRegions({region}, points_.width),
+                                  static_cast<double>(region.indices.size()),
+                                  region.centroid, region.covariance};
+    evidence.result.valid = fit(whole, evidence);
+    if (evidence.result.valid)
+      sum(whole, evidence);
     return evidence;
   }
 
 private:
   /// The plane of least squares in its own axes.
-  bool fit(const PlaneRegion& region, Evidence& out) const
+  bool fit(const RegionInterior& region, Evidence& out) const
   {
-    const auto n = static_cast<double>(region.indices.size());
+    const double n = region.n;
     out.n = n;
     out.centroid = out.result.centroid = region.centroid;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(region.covariance);
@@ -99,34 +107,42 @@ private:
     out.result.plane.orientTowardsOrigin();
     const double least = std::max(values[0], 0.0);
     out.spread = n * (values.tail<2>().array() - least).matrix().asDiagonal();
-    return region.indices.size() >= FEWEST_POINTS && values.allFinite() &&
+    return n >= FEWEST_POINTS && values.allFinite() &&
            values[1] > NARROWEST * NARROWEST * least &&
            values[1] > THINNEST * THINNEST * values[2];
   }
 
-  void sum(const PlaneRegion& region, Evidence& out)
+  void sum(const RegionInterior& region, Evidence& out)
   {
+    std::fill(blocks_.begin(), blocks_.end(), Block());
     const PlaneFrame frame = frameOf(out);
     FrameSums all;
-    const std::vector<int>& indices = region.indices; // they ascend
-    int row = 0;
-    for (std::size_t k = 0; k < indices.size();) {
-      while (indices[k] >= (row + 1) * points_.width)
-        row = indices[k] / points_.width;
-      const int column = indices[k] - row * points_.width;
-      const auto end = std::min(points_.width, (column / side_ + 1) * side_);
-      const std::size_t count =
-          countSuccessors(indices, k, static_cast<std::size_t>(end - column));
-      const FrameSums sums = sumRun(frame, indices[k], count, out.result.plane);
-      addBlock(sums, count, row / side_ * columns_ + column / side_);
-      for (std::size_t s = 0; s < FrameSums::COUNT; ++s)
-        all.sum[s] += sums.sum[s];
-      k += count;
-    }
+    for (const LabelRun& run : region.runs)
+      sumBlocks(frame, run, out.result.plane, all);
     const double* s = all.sum;
     out.noise << s[FrameSums::WUU], s[FrameSums::WUV], s[FrameSums::WU],
         s[FrameSums::WUV], s[FrameSums::WVV], s[FrameSums::WV], s[FrameSums::WU],
         s[FrameSums::WV], s[FrameSums::W];
+    compareBlocks(out);
+  }
+
+  /// Adds the points of a run, block by block.
+  void sumBlocks(const PlaneFrame& frame, const LabelRun& run, const Plane& plane,
+                 FrameSums& all)
+  {
+    const auto width = static_cast<std::size_t>(points_.width);
+    const auto side = static_cast<std::size_t>(side_);
+    const std::size_t row = run.begin / width;
+    for (std::size_t i = run.begin; i < run.end;) {
+      const std::size_t column = i - row * width;
+      const std::size_t count = std::min(side - column % side, run.end - i);
+      const FrameSums sums = sumRun(frame, i, count, plane);
+      addBlock(sums, count,
+               row / side * static_cast<std::size_t>(columns_) + column / side);
+      for (std::size_t s = 0; s < FrameSums::COUNT; ++s)
+        all.sum[s] += sums.sum[s];
+      i += count;
+    }
   }
 
   static PlaneFrame frameOf(const Evidence& evidence)
@@ -144,10 +160,9 @@ private:
             LEAST_SIGMA * LEAST_SIGMA};
   }
 
-  FrameSums sumRun(const PlaneFrame& frame, int index, std::size_t count,
+  FrameSums sumRun(const PlaneFrame& frame, std::size_t i, std::size_t count,
                    const Plane& plane)
   {
-    const auto i = static_cast<std::size_t>(index);
     if (noise_.stated)
       for (std::size_t k = 0; k < count; ++k)
         stated_[k] = statedVariance(i + k, plane);
@@ -164,9 +179,9 @@ private:
     return sigma * sigma;
   }
 
-  void addBlock(const FrameSums& sums, std::size_t count, int block_index)
+  void addBlock(const FrameSums& sums, std::size_t count, std::size_t block_index)
   {
-    Block& block = blocks_[static_cast<std::size_t>(block_index)];
+    Block& block = blocks_[block_index];
     block.n += static_cast<double>(count);
     block.u += sums.sum[FrameSums::U];
     block.v += sums.sum[FrameSums::V];
@@ -338,8 +353,9 @@ planeUncertainties(const OrganizedPoints& points,
   RegionSums sums(points, noise);
   std::vector<Evidence> all;
   all.reserve(regions.size());
-  for (const PlaneRegion& region : regions)
-    all.push_back(sums.add(region));
+  const std::vector<RegionInterior> interiors = regionInteriors(points, regions);
+  for (std::size_t k = 0; k < regions.size(); ++k)
+    all.push_back(sums.add(regions[k], interiors[k]));
   const double pooled = pooledCorrelation(all);
   std::vector<PlaneUncertainty> result;
   result.reserve(all.size());

@@ -10,6 +10,8 @@
 #define HWY_TARGET_INCLUDE "plane_uncertainty_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Has to come after foreach_target.h.
+#include "vector_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_mrf_planes {
@@ -19,13 +21,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t EIGHT = 8;
 
-template <class V>
-struct Points {
-  V x, y, z;
-};
-
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Dot(D d, const double* axis, const Points<V>& p)
+HWY_INLINE V Dot(D d, const double* axis, const PointLanes<V>& p)
 {
   return hn::Add(
       hn::Add(hn::Mul(hn::Set(d, axis[0]), p.x), hn::Mul(hn::Set(d, axis[1]), p.y)),
@@ -39,15 +36,12 @@ HWY_INLINE void SumLanes(D d, const PlaneFrame& frame, const float* x, const flo
                          std::size_t k, double (*lanes)[EIGHT])
 {
   using V = hn::Vec<D>;
-  const hn::Rebind<float, D> f;
   const V of_squared = hn::Set(d, frame.of_squared);
   const V of_range = hn::Set(d, frame.of_range);
   V su = hn::Zero(d), sv = su, sr = su, sw = su, swu = su, swv = su, swuu = su,
     swuv = su, swvv = su;
   for (std::size_t i = k; i < count; i += EIGHT) {
-    const Points<V> p = {hn::PromoteTo(d, hn::LoadU(f, x + i)),
-                         hn::PromoteTo(d, hn::LoadU(f, y + i)),
-                         hn::PromoteTo(d, hn::LoadU(f, z + i))};
+    const PointLanes<V> p = LoadPoints(d, x, y, z, i);
     const V u = hn::Sub(Dot(d, frame.right, p), hn::Set(d, frame.u0));
     const V v = hn::Sub(Dot(d, frame.up, p), hn::Set(d, frame.v0));
     const V r = hn::Add(Dot(d, frame.normal, p), hn::Set(d, frame.d));

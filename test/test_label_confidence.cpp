@@ -82,7 +82,8 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Profiles, ConfidenceTest,
-                         testing::Values(Profile::DEFAULT, Profile::PAPER));
+                         testing::Values(Profile::DEFAULT, Profile::FAST,
+                                         Profile::PAPER));
 
 TEST_P(ConfidenceTest, IsAShareAndNothingForInvalidPoints)
 {
@@ -149,17 +150,18 @@ std::vector<std::pair<float, bool>> judge(const scenes::SceneFrame& frame,
   return judged;
 }
 
-TEST(LabelConfidenceTest, TheMoreConfidentTheMoreOftenRight)
+TEST_P(ConfidenceTest, TheMoreConfidentTheMoreOftenRight)
 {
-  const Parameters parameters;
+  // With more noise the paper's method hardly finds planes.
+  const double noise = GetParam() == Profile::PAPER ? 0.5 : 2.0;
   std::vector<std::pair<float, bool>> all;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const auto frame = reference::takePicture("room", 320, 240, seed,
-                                              scenes::SensorNoise::kinect(2.0));
+                                              scenes::SensorNoise::kinect(noise));
     const OrganizedPoints points = reference::toPoints(frame);
-    const PlaneSegmentation result = segmentPlanes(points, parameters);
+    const PlaneSegmentation result = segmentPlanes(points, parameters_);
     const auto judged =
-        judge(frame, points, result, labelConfidence(points, result, parameters));
+        judge(frame, points, result, labelConfidence(points, result, parameters_));
     all.insert(all.end(), judged.begin(), judged.end());
   }
   std::sort(all.begin(), all.end());
@@ -173,6 +175,64 @@ TEST(LabelConfidenceTest, TheMoreConfidentTheMoreOftenRight)
     EXPECT_GT(right[k], right[k - 1] - 0.005) << "fifth " << k;
   EXPECT_LT(right.front(), 0.9);
   EXPECT_GT(right.back(), 0.97);
+}
+
+/// Points of a wall at 2 m with noise of so many metres, to the left of a column; beside them
+/// points without a plane.
+OrganizedPoints wallOf(int columns, double sigma)
+{
+  scenes::View view = scenes::singlePlane(2.0, 0.0);
+  view.camera.resize(160, 120);
+  const auto frame =
+      scenes::render(view.scene, view.camera, scenes::SensorNoise::gaussian(sigma), 3);
+  OrganizedPoints points = reference::toPoints(frame);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (static_cast<int>(i) % points.width >= columns)
+      points.clear(i);
+  return points;
+}
+
+/// Confidence of the point in the middle of the wall's height, a few points from its side.
+float confidenceOfWall(int columns, double sigma)
+{
+  const OrganizedPoints points = wallOf(columns, sigma);
+  Parameters parameters;
+  parameters.adaptive.min_evidence = 0;
+  const PlaneSegmentation result = segmentPlanes(points, parameters);
+  EXPECT_EQ(result.regions.size(), 1U);
+  return labelConfidence(points, result, parameters)[60 * 160 + 4];
+}
+
+TEST(LabelConfidenceTest, PlanesWithMoreEvidenceAreSurer)
+{
+  const float wide = confidenceOfWall(160, 0.01);
+  const float narrow = confidenceOfWall(40, 0.01);
+  const float strip = confidenceOfWall(12, 0.01);
+  EXPECT_GT(wide, 0.9f);
+  EXPECT_GT(wide, narrow + 0.01f);
+  EXPECT_GT(narrow, strip + 0.05f);
+  EXPECT_GT(strip, 0.1f) << "that it is no plane is not sure either";
+  EXPECT_GT(confidenceOfWall(12, 0.001), strip + 0.05f) << "less noise shows it better";
+}
+
+TEST(LabelConfidenceTest, PointsOffThePapersPlanesAreLessSure)
+{
+  OrganizedPoints points = wallOf(160, 0.0001);
+  const std::size_t off = 60 * 160 + 80;
+  const std::size_t further = 30 * 160 + 80;
+  const Parameters parameters = Parameters::fromProfile(Profile::PAPER);
+  const auto depth = [](std::size_t i, float add, OrganizedPoints& moved) {
+    const float f = (moved.z[i] + add) / moved.z[i];
+    moved.set(i, moved.x[i] * f, moved.y[i] * f, moved.z[i] * f);
+  };
+  depth(off, 0.02f, points);
+  depth(further, 0.2f, points);
+  const PlaneSegmentation result = segmentPlanes(points, parameters);
+  ASSERT_EQ(result.clusters.planes.size(), 1U);
+  const auto confidence = labelConfidence(points, result, parameters);
+  EXPECT_GT(confidence[off + 1], 0.99f) << "nothing competes, and it fits";
+  EXPECT_LT(confidence[off], 0.9f);
+  EXPECT_LT(confidence[further], 0.1f);
 }
 
 /// What a typical change of label costs: (8), or the median of (5) over the pairs.
@@ -202,11 +262,17 @@ TEST(LabelConfidenceTest, GapsOfThePapersMethodAreMeasuredInPricesOfItsSmoothnes
     ASSERT_GE(planes.size(), 3U);
     const PlaneField field(points, planes, parameters);
     const auto gaps = propagateRowGaps(field, parameters.iterations);
-    const double unit = 2 * typicalPrice(planes, parameters) * field.unitsPerEnergy();
+    const double unit = typicalPrice(planes, parameters) * field.unitsPerEnergy() / 2;
     const auto confidence = labelConfidence(points, result, parameters);
     for (std::size_t i = 0; i < points.size(); ++i)
       if (points.valid[i] != 0) {
-        ASSERT_NEAR(confidence[i], 1 - std::exp(-gaps[i] / unit), 1e-4)
+        const std::uint16_t label = result.labels[i];
+        ASSERT_GT(label, 0);
+        const double away = result.regions[label - 1U].plane.distance(
+            {points.x[i], points.y[i], points.z[i]});
+        const double sigmas = away / parameters.noise.sigma(points.z[i]) / 5;
+        ASSERT_NEAR(confidence[i],
+                    (1 - std::exp(-gaps[i] / unit)) / (1 + sigmas * sigmas), 1e-4)
             << "smoothness " << static_cast<int>(smoothness) << ", point " << i;
       }
   }

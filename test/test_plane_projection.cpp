@@ -35,6 +35,23 @@ TEST(PlaneProjectionTest, GrazingRaysDoNotCarryPointsAway)
   EXPECT_LT((projectPoint(p, floor, ProjectionWay::RAY) - p).norm(), 2e-3);
 }
 
+TEST(PlaneProjectionTest, NoPointLandsBehindTheSensor)
+{
+  const Plane floor = {{0, 0, 1}, 2}; // two metres below the sensor
+  const Eigen::Vector3d above(55, 0, 6);
+  const Eigen::Vector3d nearest(55, 0, -2);
+  EXPECT_LT((projectPoint(above, floor, ProjectionWay::RAY) - nearest).norm(), 1e-12);
+  const Plane through = {{0, 0, 1}, 0}; // all rays meet at the sensor
+  EXPECT_LT(
+      (projectPoint(above, through, ProjectionWay::RAY) - Eigen::Vector3d(55, 0, 0))
+          .norm(),
+      1e-12);
+  std::vector<float> points = {55, 0, 6, 55, 0, -1};
+  projectPoints(floor, Eigen::Vector3d::Zero(), ProjectionWay::RAY, {0, 1}, 3,
+                points.data());
+  EXPECT_EQ(points, (std::vector<float>{55, 0, -2, 110, 0, -2})) << "in vectors";
+}
+
 TEST(PlaneProjectionTest, NoiseOfTheDepthGoes)
 {
   scenes::View view = scenes::corner();

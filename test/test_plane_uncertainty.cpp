@@ -137,15 +137,15 @@ TEST_P(CoverageTest, TruthLiesInsideTheEllipsoidAsOftenAsItShould)
   EXPECT_NEAR(coverage.share(), 0.95, 0.025) << coverage.planes() << " planes";
 }
 
-/// The true plane that at least 99 in 100 points of a region lie on, or -1. Points of
-/// other surfaces move a plane beyond what noise does.
+/// The true plane that at least nine in ten points of a region lie on, or -1: others have
+/// become one region with a part of another plane.
 int trueLabel(const scenes::SceneFrame& frame, const PlaneRegion& region)
 {
   std::vector<std::size_t> votes(frame.planes.size() + 1, 0);
   for (const int i : region.indices)
     ++votes[frame.labels[static_cast<std::size_t>(i)]];
   for (std::size_t k = 1; k < votes.size(); ++k)
-    if (100 * votes[k] >= 99 * region.indices.size())
+    if (10 * votes[k] >= 9 * region.indices.size())
       return static_cast<int>(k) - 1;
   return -1;
 }
@@ -178,8 +178,8 @@ TEST_P(CoverageTest, HoldsForPlanesThatTheDefaultProfileFinds)
   RecordProperty("planes", coverage.planes());
   RecordProperty("share", std::to_string(coverage.share()));
   RecordProperty("share_biased", std::to_string(biased.share()));
-  EXPECT_GT(coverage.planes(), 60);
-  EXPECT_GT(coverage.share(), 0.92) << coverage.planes() << " planes";
+  EXPECT_GT(coverage.planes(), 250);
+  EXPECT_NEAR(coverage.share(), 0.96, 0.03) << coverage.planes() << " planes";
   EXPECT_GT(coverage.share(), biased.share()) << "the bias is worth subtracting";
 }
 

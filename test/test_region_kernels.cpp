@@ -328,12 +328,17 @@ TEST(LabelGapTest, SharesAreThoseOfTheExponential)
   std::vector<std::uint8_t> valid(gaps.size(), 1);
   valid[17] = 0;
   forEachInstructionSet([&] {
-    std::vector<float> shares = gaps;
-    adaptive::gapsToShares(0.7f, valid.data(), gaps.size(), shares.data());
-    for (std::size_t k = 0; k < gaps.size(); ++k) {
-      const double expected = valid[k] == 0 ? 0.0 : -std::expm1(-0.7 * gaps[k]);
-      ASSERT_NEAR(shares[k], expected, 1e-6) << "gap " << gaps[k];
-      ASSERT_TRUE(shares[k] >= 0.0f && shares[k] <= 1.0f);
+    for (const adaptive::GapExponent& exponent :
+         {adaptive::GapExponent{0.7f, 0.0f}, {0.0f, 0.06f}, {0.2f, 0.01f}}) {
+      std::vector<float> shares = gaps;
+      adaptive::gapsToShares(exponent, valid.data(), gaps.size(), shares.data());
+      for (std::size_t k = 0; k < gaps.size(); ++k) {
+        const double gap = gaps[k];
+        const double x = gap * (exponent.linear + exponent.squared * gap);
+        const double expected = valid[k] == 0 ? 0.0 : -std::expm1(-x);
+        ASSERT_NEAR(shares[k], expected, 1e-6) << "gap " << gap;
+        ASSERT_TRUE(shares[k] >= 0.0f && shares[k] <= 1.0f);
+      }
     }
   });
 }

@@ -21,8 +21,9 @@ enum class ProjectionWay {
 
 /** \brief A point moved onto a plane, metres, sensor frame.
  *
- * Along the ray a point that sees its plane at less than a degree would move far; it is
- * moved to the nearest point instead. */
+ * Along the ray a point that sees its plane at less than a degree would move far, and one
+ * whose ray goes away from its plane would land behind the sensor; these are moved to the
+ * nearest point instead. */
 PCL_MRF_PLANES_EXPORT Eigen::Vector3d
 projectPoint(const Eigen::Vector3d& point, const Plane& plane, ProjectionWay way);
 

@@ -25,9 +25,11 @@ struct PCL_MRF_PLANES_EXPORT PlaneUncertainty {
   /// False where the points do not determine a plane: fewer than four, on a line, or
   /// spread less than twice their rms distance. The diagonals are infinite then.
   bool valid = false;
-  Plane plane;                       ///< least-squares plane of the points
+  /// Least-squares plane of the points off the border of the region: where surfaces meet,
+  /// some points of the other one carry the label. Of all points where those are few.
+  Plane plane;
   Eigen::Matrix<double, 3, 2> basis; ///< unit tangents t1, t2
-  Eigen::Vector3d centroid; ///< of the points, metres; the plane goes through it
+  Eigen::Vector3d centroid; ///< of these points, metres; the plane goes through it
   /// Covariance of (alpha, beta, gamma), gamma being the distance of the plane from the
   /// centroid: rad^2, rad m, m^2. Large turns do least harm to this form.
   Eigen::Matrix3d at_centroid;
@@ -72,8 +74,11 @@ struct PCL_MRF_PLANES_EXPORT UncertaintyNoise {
  * regions, and drawn towards a region's own value by its blocks (cluster-robust, Liang and
  * Zeger, Biometrika 73, 1986). Deviations of a surface from flatness count as noise.
  *
- * Of Method::ADAPTIVE's regions the plane is that of least squares; of Method::PAPER's,
- * whose planes are made of tiles, PlaneUncertainty::plane may differ from the region's.
+ * Points along the border of a region are left out where 60 others determine the plane: a
+ * region of the default profile has a few that lie on the surface beyond, off to one side,
+ * and they do more to its plane than noise does. So PlaneUncertainty::plane is not quite
+ * the region's, and the better one; of Method::PAPER's regions, whose planes are made of
+ * tiles, it may be far from it.
  * O(points)
  */
 PCL_MRF_PLANES_EXPORT std::vector<PlaneUncertainty>

@@ -6,6 +6,7 @@
 #include "adaptive/cell_labelling.h"
 #include "adaptive/curved_surfaces.h"
 #include "adaptive/noise_estimation.h"
+#include "adaptive/plane_evidence.h"
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_refinement.h"
 #include "adaptive/sampled_points.h"
@@ -32,13 +33,6 @@ std::size_t countTiles(const std::vector<TileLevel>& pyramid)
   for (const TileLevel& level : pyramid)
     tiles += level.sums.size();
   return tiles;
-}
-
-/// So many points hold the information of one with independent noise.
-double pointsPerIndependentOne(const NoiseLaw& noise)
-{
-  const double correlation = noise.growth.back() / noise.growth.front();
-  return correlation * correlation;
 }
 
 /// Runs of labels from 1, with 0 for none, as those of label planes from 0.

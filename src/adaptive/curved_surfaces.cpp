@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/curved_surfaces.h"
+#include "adaptive/plane_evidence.h"
 #include "adaptive/surface_bend.h"
 #include "threads.h"
 
@@ -168,14 +169,10 @@ std::vector<int> fanSizes(const Borders& borders, const FittedRegions& regions,
   return sizes;
 }
 
-/// Whether there is so much of a plane that chance does not explain it: n ln(width / rms)
-/// nats are saved by an equation that tells where on their plane points lie, and not where
-/// in a slab as thick as it is wide.
+/// Whether there is so much of a plane that chance does not explain it.
 bool isEvident(const FittedPlane& plane, const AdaptiveParameters& parameters)
 {
-  constexpr double THINNEST = 1e-6; // metres
-  const double rms = std::max(std::sqrt(plane.mse), THINNEST);
-  return plane.n * std::log(plane.width / rms) >= parameters.min_evidence;
+  return evidenceOf(plane) >= parameters.min_evidence;
 }
 
 /// Which regions are parts of a curved surface.

@@ -8,6 +8,7 @@
 #include "adaptive/label_gap_kernel.h"
 #include "adaptive/label_scale.h"
 #include "adaptive/noise_estimation.h"
+#include "adaptive/plane_evidence.h"
 #include "adaptive/tile_pyramid.h"
 
 #include <Eigen/Dense>
@@ -169,6 +170,17 @@ public:
     return gaps;
   }
 
+  /// Of each plane.
+  std::vector<double> evidence() const
+  {
+    const double correlated = pointsPerIndependentOne(noise_->noise);
+    std::vector<double> out;
+    out.reserve(regions_.planes.size());
+    for (const FittedPlane& plane : regions_.planes)
+      out.push_back(evidenceOf(plane) / correlated);
+    return out;
+  }
+
 private:
   /// What all points of a block share.
   void prepare(int column, int row)
@@ -255,11 +267,11 @@ private:
 
 } // namespace
 
-std::vector<float> labelGaps(const OrganizedPoints& points,
-                             const PlaneSegmentation& result,
-                             const Parameters& parameters)
+LabelGaps labelGaps(const OrganizedPoints& points, const PlaneSegmentation& result,
+                    const Parameters& parameters)
 {
-  return GapFinder(points, result, parameters).find();
+  GapFinder finder(points, result, parameters);
+  return {finder.find(), finder.evidence()};
 }
 
 } // namespace pcl_mrf_planes::adaptive

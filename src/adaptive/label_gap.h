@@ -9,12 +9,18 @@
 
 namespace pcl_mrf_planes::adaptive {
 
-/// What the second best label of each point would cost more than the one it has, in sigmas;
-/// 0 where another would be better; of no meaning for invalid points. The random field's costs with
-/// the final planes and labels; see labelConfidence().
+/// What speaks for final labels and planes.
+struct LabelGaps {
+  /// What the second best label of each point would cost more than the one it has, in
+  /// sigmas; 0 where another would be better; of no meaning for invalid points.
+  std::vector<float> gaps;
+  /// Of the plane of each region, in points of independent noise; see evidenceOf().
+  std::vector<double> evidence;
+};
+
+/// The random field's costs with the final planes and labels; see labelConfidence().
 /// \param[in] result its regions and labels, and the noise if it has it
-std::vector<float> labelGaps(const OrganizedPoints& points,
-                             const PlaneSegmentation& result,
-                             const Parameters& parameters);
+LabelGaps labelGaps(const OrganizedPoints& points, const PlaneSegmentation& result,
+                    const Parameters& parameters);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -11,12 +11,15 @@
 #define HWY_TARGET_INCLUDE "adaptive/label_gap_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Has to come after foreach_target.h.
+#include "vector_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pcl_mrf_planes::adaptive {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using pcl_mrf_planes::HWY_NAMESPACE::ForEachVector;
 
 constexpr std::size_t EIGHT = 8;
 
@@ -42,18 +45,6 @@ HWY_INLINE hn::Mask<D> Have(D d, std::uint16_t label, const std::uint16_t* label
   const Numbers<D> i32;
   const auto numbers = hn::PromoteTo(i32, hn::LoadU(Labels<D>(), labels));
   return hn::RebindMask(d, hn::Eq(numbers, hn::Set(i32, label)));
-}
-
-template <class Block>
-HWY_INLINE void ForEachVector(std::size_t count, Block&& block)
-{
-  const hn::ScalableTag<float> d;
-  const hn::CappedTag<float, 1> one;
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
-    block(d, i);
-  for (; i < count; ++i)
-    block(one, i);
 }
 
 void EdgePriceRow(const EdgePrices& prices, const float* a, const float* b,
@@ -186,11 +177,14 @@ HWY_INLINE hn::Vec<D> FallingExponential(D d, hn::Vec<D> x)
   return hn::Mul(p, hn::BitCast(d, power));
 }
 
-void GapsToShares(float scale, const std::uint8_t* valid, std::size_t count,
-                  float* gaps)
+void GapsToShares(const GapExponent& exponent, const std::uint8_t* valid,
+                  std::size_t count, float* gaps)
 {
   ForEachVector(count, [&](auto d, std::size_t i) HWY_ATTR {
-    const auto x = hn::Mul(hn::LoadU(d, gaps + i), hn::Set(d, scale));
+    const auto gap = hn::LoadU(d, gaps + i);
+    const auto slope = hn::Add(hn::Set(d, exponent.linear),
+                               hn::Mul(hn::Set(d, exponent.squared), gap));
+    const auto x = hn::Mul(gap, slope);
     const auto one = hn::Set(d, 1.0f);
     const auto share = hn::Max(hn::Sub(one, FallingExponential(d, x)), hn::Zero(d));
     hn::StoreU(hn::IfThenElseZero(Where(d, valid + i), share), d, gaps + i);
@@ -222,10 +216,10 @@ void gapsOfEight(const GapCosts& costs, const GapRow& row,
   HWY_DYNAMIC_DISPATCH(GapsOfEight)(costs, row, candidates, count, gaps);
 }
 
-void gapsToShares(float scale, const std::uint8_t* valid, std::size_t count,
-                  float* gaps)
+void gapsToShares(const GapExponent& exponent, const std::uint8_t* valid,
+                  std::size_t count, float* gaps)
 {
-  HWY_DYNAMIC_DISPATCH(GapsToShares)(scale, valid, count, gaps);
+  HWY_DYNAMIC_DISPATCH(GapsToShares)(exponent, valid, count, gaps);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -50,8 +50,14 @@ struct GapCosts {
 void gapsOfEight(const GapCosts& costs, const GapRow& row,
                  const GapCandidate* candidates, std::size_t count, float* gaps);
 
-/// 1 - exp(-scale * gap), right to 1e-6, and 0 for invalid points. In place.
-void gapsToShares(float scale, const std::uint8_t* valid, std::size_t count,
-                  float* gaps);
+/// How fast certainty grows with a gap g: the exponent linear * g + squared * g^2.
+struct GapExponent {
+  float linear;
+  float squared;
+};
+
+/// 1 - exp(-exponent), right to 1e-6, and 0 for invalid points. In place.
+void gapsToShares(const GapExponent& exponent, const std::uint8_t* valid,
+                  std::size_t count, float* gaps);
 
 } // namespace pcl_mrf_planes::adaptive

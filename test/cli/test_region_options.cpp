@@ -72,6 +72,12 @@ TEST_F(RegionReports, PlanesHaveTheCovarianceOfTheirParameters)
         (covariance.topLeftCorner<3, 3>() * coefficientsOf(plane).head<3>()).norm(),
         1e-3 * covariance.trace())
         << "in the frame of the cloud";
+    const Eigen::Vector4d inner = coefficientsOf(uncertainty);
+    EXPECT_GT(inner.head<3>().dot(coefficientsOf(plane).head<3>()), 0.999);
+    EXPECT_NEAR(inner[3], coefficientsOf(plane)[3], 0.05);
+    EXPECT_LT((covariance.topLeftCorner<3, 3>() * inner.head<3>()).norm(),
+              1e-6 * covariance.trace())
+        << "a unit normal cannot change along itself";
     EXPECT_EQ(uncertainty["bias"].size(), 4U);
     EXPECT_GE(uncertainty["points_per_independent"].get<double>(), 1.0);
     EXPECT_FALSE(plane.contains("patches")) << "only on request";
