@@ -17,6 +17,7 @@ const std::vector<KeyBinding>& keyBindings()
       {"6", "6", Action::BY_TILE_ERROR, "colour by the tiles' fit error"},
       {"c", "c", Action::CONTOURS, "contours"},
       {"n", "n", Action::NORMALS, "normals and numbers of the planes"},
+      {"g", "g", Action::CREASES, "creases, with the angle between the normals"},
       {"t", "t", Action::TILES, "tiles, in the colour they merged into"},
       {"i", "i", Action::PANEL, "image panel: over colour, over depth, off"},
       {"v", "v", Action::COMPARE, "beside it: default, fast, paper, PCL, off"},

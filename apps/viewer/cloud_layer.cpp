@@ -70,11 +70,13 @@ vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& 
 
 vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
                                       const std::vector<LabelContour>& contours,
-                                      bool dark)
+                                      const ViewSettings& settings)
 {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   for (const LabelContour& contour : contours) {
+    if (!settings.shows(contour.label))
+      continue;
     const vtkIdType first = points->GetNumberOfPoints();
     lines->InsertNextCell(static_cast<int>(contour.points.size()) + 1);
     for (const int index : contour.points) {
@@ -87,7 +89,7 @@ vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
   data->SetPoints(points);
   data->SetLines(lines);
   vtkSmartPointer<vtkActor> actor = actorOf(data);
-  const double shade = dark ? 1.0 : 0.0;
+  const double shade = settings.dark ? 1.0 : 0.0;
   actor->GetProperty()->SetColor(shade, shade, shade);
   actor->GetProperty()->SetLineWidth(2.0f);
   // In front of the points that they run through.

@@ -23,10 +23,22 @@ vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame,
 /** \brief Contours as lines in one colour that stands out from the background. */
 vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
                                       const std::vector<LabelContour>& contours,
-                                      bool dark);
+                                      const ViewSettings& settings);
 
-/** \brief An arrow along the normal of every plane, and its number. */
-Props normalLayer(const SegmentedView& view, bool dark);
+/** \brief An arrow along the normal of every plane that is shown. */
+vtkSmartPointer<vtkProp> normalLayer(const SegmentedView& view,
+                                     const ViewSettings& settings);
+
+/** \brief The numbers of the planes, at the tips of their arrows. */
+Props numberMarks(const SegmentedView& view, const ViewSettings& settings);
+
+/** \brief Creases of the planes that are shown as thick lines: convex ones red, concave
+ * ones blue. */
+Props creaseLayer(const std::vector<PlaneCrease>& creases,
+                  const ViewSettings& settings);
+
+/** \brief The angles between the normals, degrees, in the middle of the creases. */
+Props angleMarks(const std::vector<PlaneCrease>& creases, const ViewSettings& settings);
 
 /** \brief Every tile as a square on its points: filled in the colour of the plane that it
  * merged into; tiles that were not kept as gray outlines. */

@@ -118,14 +118,15 @@ void colourByPlane(const SegmentedView& view, const std::vector<std::uint32_t>& 
 void applySelection(const ViewFrame& frame, const SegmentedView& view,
                     const ViewSettings& settings, PointColours& result)
 {
+  // Towards the background, whichever it is.
+  const double faded = settings.dark ? 0.0 : (1.0 - DIMMED) * 255.0;
   for (std::size_t i = 0; i < view.labels.size(); ++i) {
     const std::uint16_t label = view.labels[i];
     const bool is_selected = settings.selected != 0 && label == settings.selected;
-    result.shown[i] = frame.points.valid[i] != 0 && settings.hidden.count(label) == 0 &&
-                      (!settings.isolate || is_selected);
+    result.shown[i] = frame.points.valid[i] != 0 && settings.shows(label);
     if (settings.selected != 0 && !is_selected)
       for (std::uint8_t& channel : result.colours[i])
-        channel = static_cast<std::uint8_t>(DIMMED * channel);
+        channel = static_cast<std::uint8_t>(DIMMED * channel + faded);
   }
 }
 

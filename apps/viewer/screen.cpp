@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "screen.h"
 
+#include "marks.h"
 #include "output_file.h"
 
 #include <pcl/visualization/pcl_visualizer.h>
@@ -21,6 +22,16 @@ namespace {
 
 constexpr double DEGREES = 180.0 / 3.14159265358979323846;
 constexpr double MARGIN = 1.08; // around what the sensor saw
+constexpr int LAYERS = 4;
+
+/// A layer is drawn over those below it, whatever their depth.
+int layerOf(Screen::Part part)
+{
+  return part <= Screen::RIGHT         ? 0
+         : part <= Screen::RIGHT_MARKS ? 1
+         : part < Screen::OVERLAY      ? 2
+                                       : 3;
+}
 
 } // namespace
 
@@ -32,18 +43,21 @@ Screen::Screen(int width, int height, bool off_screen)
   window()->SetMultiSamples(0);
   // PCL's own renderer would draw over the whole window.
   window()->GetRenderers()->RemoveAllItems();
-  window()->SetNumberOfLayers(3);
+  window()->SetNumberOfLayers(LAYERS);
   for (int part = 0; part < PARTS; ++part) {
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
-    renderer->SetLayer(part == OVERLAY ? 2 : part >= IMAGE ? 1 : 0);
+    renderer->SetLayer(layerOf(static_cast<Part>(part)));
     renderer->SetInteractive(part <= RIGHT ? 1 : 0);
     if (part == IMAGE || part == CHART) // plates of their own
       renderer->PreserveColorBufferOff();
     renderers_[static_cast<std::size_t>(part)] = renderer;
   }
-  include(LEFT, true);
-  include(OVERLAY, true);
-  renderers_[RIGHT]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
+  for (const Part part : {LEFT, LEFT_MARKS, OVERLAY})
+    include(part, true);
+  for (const Part part : {RIGHT, LEFT_MARKS, RIGHT_MARKS})
+    renderers_[part]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
+  keepMarksApart(renderers_[LEFT_MARKS]);
+  keepMarksApart(renderers_[RIGHT_MARKS]);
   renderers_[IMAGE]->SetViewport(0.66, 0.03, 0.985, 0.37);
   renderers_[CHART]->SetViewport(0.60, 0.55, 0.985, 0.97);
   arrange(false, true);
@@ -91,9 +105,12 @@ void Screen::show(Part part, const Props& props)
 void Screen::arrange(bool side_by_side, bool dark)
 {
   side_by_side_ = side_by_side;
-  renderers_[LEFT]->SetViewport(0.0, 0.0, side_by_side ? 0.5 : 1.0, 1.0);
-  renderers_[RIGHT]->SetViewport(0.5, 0.0, 1.0, 1.0);
-  include(RIGHT, side_by_side);
+  for (const Part part : {LEFT, LEFT_MARKS})
+    renderers_[part]->SetViewport(0.0, 0.0, side_by_side ? 0.5 : 1.0, 1.0);
+  for (const Part part : {RIGHT, RIGHT_MARKS}) {
+    renderers_[part]->SetViewport(0.5, 0.0, 1.0, 1.0);
+    include(part, side_by_side);
+  }
   const double shade = dark ? 0.08 : 1.0;
   renderers_[LEFT]->SetBackground(shade, shade, shade);
   renderers_[RIGHT]->SetBackground(shade, shade, shade);

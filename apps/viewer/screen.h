@@ -18,14 +18,15 @@ class PCLVisualizer;
 
 namespace pcl_mrf_planes::viewer {
 
-/** \brief The window's parts: two views with one camera, image panel, chart, and on top of
- * all a layer for text and sliders. Owns the PCLVisualizer. */
+/** \brief The window's parts: two views with one camera, marks over each that nothing of the
+ * scene hides, image panel, chart, and on top of all a layer for text and sliders. Owns the
+ * PCLVisualizer. */
 class Screen {
 public:
   Screen(int width, int height, bool off_screen);
   ~Screen();
 
-  enum Part { LEFT, RIGHT, IMAGE, CHART, OVERLAY, PARTS };
+  enum Part { LEFT, RIGHT, LEFT_MARKS, RIGHT_MARKS, IMAGE, CHART, OVERLAY, PARTS };
 
   vtkRenderer* renderer(Part part) { return renderers_[part]; }
   vtkRenderWindow* window();

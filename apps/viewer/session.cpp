@@ -96,6 +96,8 @@ bool Session::performView(Action action)
     return toggle(settings.contours);
   case Action::NORMALS:
     return toggle(settings.normals);
+  case Action::CREASES:
+    return toggle(settings.creases);
   case Action::SLIDERS:
     return toggle(settings.sliders);
   case Action::FACTS:

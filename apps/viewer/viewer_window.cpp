@@ -30,6 +30,11 @@ constexpr std::chrono::milliseconds TICK(10); // between looks for events
 constexpr double PICK_REACH = 4.0;            // pixels
 using Clock = std::chrono::steady_clock;
 
+void append(const Props& more, Props& props)
+{
+  props.insert(props.end(), more.begin(), more.end());
+}
+
 vtkSmartPointer<vtkRenderWindowInteractor> makeInteractor(vtkRenderWindow* window,
                                                           bool off_screen)
 {
@@ -65,6 +70,7 @@ struct ViewerWindow::Parts {
 
   Props view(const SegmentedView& result, const std::vector<std::uint32_t>& classes,
              const ViewSettings& settings, PointColours& colours) const;
+  static Props marks(const SegmentedView& result, const ViewSettings& settings);
   void drawLeft();
   void drawRight();
   void drawPanels();
@@ -85,10 +91,22 @@ Props ViewerWindow::Parts::view(const SegmentedView& result,
   colours = colourPoints(frame, result, session.tiles(), settings, classes);
   Props props = {cloudLayer(frame, colours)};
   if (settings.contours)
-    props.push_back(contourLayer(frame, contoursOf(frame, result), settings.dark));
+    props.push_back(contourLayer(frame, contoursOf(frame, result), settings));
   if (settings.normals)
-    for (const auto& prop : normalLayer(result, settings.dark))
-      props.push_back(prop);
+    props.push_back(normalLayer(result, settings));
+  if (settings.creases && result.creases)
+    append(creaseLayer(result.creases(), settings), props);
+  return props;
+}
+
+Props ViewerWindow::Parts::marks(const SegmentedView& result,
+                                 const ViewSettings& settings)
+{
+  Props props;
+  if (settings.normals)
+    append(numberMarks(result, settings), props);
+  if (settings.creases && result.creases)
+    append(angleMarks(result.creases(), settings), props);
   return props;
 }
 
@@ -104,6 +122,7 @@ void ViewerWindow::Parts::drawLeft()
     settings.selected = 0;
     settings.hidden.clear();
     screen.show(Screen::LEFT, view(stage, step->classes, settings, left));
+    screen.show(Screen::LEFT_MARKS, {});
     return;
   }
   Props props = view(session.main(), session.mainColours(), settings, left);
@@ -114,16 +133,17 @@ void ViewerWindow::Parts::drawLeft()
       for (std::uint8_t& channel : colour)
         channel = static_cast<std::uint8_t>(channel / 3);
     props[0] = cloudLayer(session.frame(), dim);
-    for (const auto& prop : tileLayer(session.frame(), session.tiles()))
-      props.push_back(prop);
+    append(tileLayer(session.frame(), session.tiles()), props);
   }
   screen.show(Screen::LEFT, props);
+  screen.show(Screen::LEFT_MARKS, marks(session.main(), settings));
 }
 
 void ViewerWindow::Parts::drawRight()
 {
   if (!session.compares()) {
     screen.show(Screen::RIGHT, {});
+    screen.show(Screen::RIGHT_MARKS, {});
     return;
   }
   ViewSettings settings = session.settings; // planes are picked on the left
@@ -133,6 +153,7 @@ void ViewerWindow::Parts::drawRight()
   PointColours colours;
   screen.show(Screen::RIGHT,
               view(session.other(), session.otherColours(), settings, colours));
+  screen.show(Screen::RIGHT_MARKS, marks(session.other(), settings));
 }
 
 void ViewerWindow::Parts::drawPanels()

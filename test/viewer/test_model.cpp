@@ -215,6 +215,20 @@ TEST_F(Model, DeviationsAreThoseOfTheCovariance)
   }
 }
 
+TEST_F(Model, CreasesLieOnBothPlanes)
+{
+  Session session = open({room("room.pcd")});
+  session.perform(Action::CREASES);
+  EXPECT_TRUE(session.settings.creases);
+  const SegmentedView& view = session.main();
+  const std::vector<PlaneCrease> creases = view.creases();
+  ASSERT_FALSE(creases.empty());
+  for (const PlaneCrease& crease : creases)
+    for (const std::size_t k : {crease.first, crease.second})
+      for (const Eigen::Vector3d& end : {crease.start, crease.end})
+        EXPECT_NEAR(view.planes.at(k).normal.dot(end) + view.planes[k].d, 0.0, 1e-3);
+}
+
 TEST_F(Model, FilmEndsWithTheResult)
 {
   for (const Profile profile : {Profile::DEFAULT, Profile::PAPER}) {

@@ -66,8 +66,8 @@ TEST_F(Pictures, ChangeWithEveryColourAndLayer)
   const std::string input = room("room.pcd");
   const io::ColourImage plain = picture(input, "1");
   // The second half of a pair: what the key adds must be there.
-  for (const char* keys : {"2", "3", "4", "5", "6", "c", "n", "t", "i", "v", "a", "s",
-                           "f", "b", "h", "tab", "tab d", "tab o"})
+  for (const char* keys : {"2", "3", "4", "5", "6", "c", "n", "g", "t", "i", "v", "a",
+                           "s", "f", "b", "h", "tab", "tab d", "tab o"})
     EXPECT_GT(countDifferences(plain, picture(input, keys)), TEXT) << keys;
 }
 
@@ -75,8 +75,9 @@ TEST_F(Pictures, KeysTwiceBringBackTheView)
 {
   const std::string input = room("room.pcd");
   const io::ColourImage plain = picture(input, "f");
-  for (const char* keys : {"f c c", "f n n", "f t t", "f i i i", "f v v v v v", "f a a",
-                           "f s s", "f b b", "f h h", "f tab d u", "f tab o esc"})
+  for (const char* keys :
+       {"f c c", "f n n", "f g g", "f t t", "f i i i", "f v v v v v", "f a a", "f s s",
+        "f b b", "f h h", "f tab d u", "f tab o esc"})
     EXPECT_EQ(countDifferences(plain, picture(input, keys)), 0u) << keys;
 }
 
@@ -103,6 +104,36 @@ TEST_F(Pictures, TextIsReadableOnDarkAndOnLight)
     EXPECT_GT(others, 3000u) << background;
     EXPECT_GT(static_cast<double>(readable), 0.8 * static_cast<double>(others))
         << background;
+  }
+}
+
+TEST_F(Pictures, NothingHidesTheNumbersOfThePlanes)
+{
+  const std::string input = room("room.pcd");
+  const io::Colour stroke = {0, 0, 0};
+  const io::ColourImage all = picture(input, "f b n");
+  std::string tabs;
+  for (int plane = 1; plane <= 5; ++plane) {
+    tabs += " tab";
+    const io::ColourImage alone = picture(input, "f b n" + tabs + " o");
+    std::size_t strokes = 0, seen = 0;
+    for (std::size_t i = 0; i < alone.pixels.size() * 4 / 5; ++i) // text is below
+      if (alone.pixels[i] == stroke) {
+        ++strokes;
+        seen += all.pixels[i] == stroke;
+      }
+    EXPECT_GT(strokes, 10u) << plane;
+    EXPECT_EQ(seen, strokes) << plane;
+  }
+}
+
+TEST_F(Pictures, CreasesAreConvexOrConcaveByColour)
+{
+  const io::ColourImage seen = picture(room("room.pcd"), "f g");
+  const io::ColourImage without = picture(room("room.pcd"), "f");
+  for (const io::Colour& colour : {io::Colour{213, 94, 0}, io::Colour{0, 114, 178}}) {
+    EXPECT_GT(countColour(seen, colour), 100u);
+    EXPECT_EQ(countColour(without, colour), 0u);
   }
 }
 
