@@ -16,9 +16,10 @@ namespace pcl_mrf_planes::viewer {
 
 using Props = std::vector<vtkSmartPointer<vtkProp>>;
 
-/** \brief The points that are shown, in their colours. */
-vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame,
-                                    const PointColours& colours);
+/** \brief The points that are shown, in their colours.
+ * \param[in] step 2: only every second point of every second row, for the larger ones */
+vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& colours,
+                                    int step = 1);
 
 /** \brief Contours as lines in one colour that stands out from the background. */
 vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,

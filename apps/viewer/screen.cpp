@@ -23,6 +23,10 @@ namespace {
 constexpr double DEGREES = 180.0 / 3.14159265358979323846;
 constexpr double MARGIN = 1.08; // around what the sensor saw
 constexpr int LAYERS = 4;
+constexpr double PANEL_RIGHT = 0.985; // shares of the window
+constexpr double PANEL_BOTTOM = 0.03;
+constexpr double PANEL_HEIGHT = 0.34;
+constexpr double RIM = 1.02; // around the image
 
 /// A layer is drawn over those below it, whatever their depth.
 int layerOf(Screen::Part part)
@@ -58,7 +62,6 @@ Screen::Screen(int width, int height, bool off_screen)
     renderers_[part]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
   keepMarksApart(renderers_[LEFT_MARKS]);
   keepMarksApart(renderers_[RIGHT_MARKS]);
-  renderers_[IMAGE]->SetViewport(0.66, 0.03, 0.985, 0.37);
   renderers_[CHART]->SetViewport(0.60, 0.55, 0.985, 0.97);
   arrange(false, true);
 }
@@ -91,15 +94,25 @@ void Screen::show(Part part, const Props& props)
     renderer->AddViewProp(prop);
   if (part == IMAGE || part == CHART)
     include(part, !props.empty());
-  if (part == IMAGE && !props.empty()) {
-    renderer->GetActiveCamera()->ParallelProjectionOn();
-    renderer->ResetCamera();
-    const double* bounds = props.front()->GetBounds();
-    const int* size = renderer->GetSize();
-    const double aspect = 1.0 * size[0] / std::max(1, size[1]);
-    renderer->GetActiveCamera()->SetParallelScale(
-        0.51 * std::max(bounds[3] - bounds[2], (bounds[1] - bounds[0]) / aspect));
-  }
+  if (part == IMAGE && !props.empty())
+    fitImage(props.front()->GetBounds());
+}
+
+void Screen::fitImage(const double* bounds)
+{
+  // A scan all around is a strip; it gets what the text at the lower left leaves.
+  const double aspect = (bounds[1] - bounds[0]) / std::max(1.0, bounds[3] - bounds[2]);
+  const double most = aspect > 2.5 ? 0.56 : 0.325;
+  const int* size = window()->GetSize();
+  const double window_aspect = 1.0 * size[0] / std::max(1, size[1]);
+  const double width = std::min(most, PANEL_HEIGHT * aspect / window_aspect);
+  const double height = width * window_aspect / aspect;
+  renderers_[IMAGE]->SetViewport(PANEL_RIGHT - width, PANEL_BOTTOM, PANEL_RIGHT,
+                                 PANEL_BOTTOM + height);
+  vtkCamera* camera = renderers_[IMAGE]->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  renderers_[IMAGE]->ResetCamera();
+  camera->SetParallelScale(0.5 * RIM * (bounds[3] - bounds[2]));
 }
 
 void Screen::arrange(bool side_by_side, bool dark)

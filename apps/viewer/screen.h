@@ -42,6 +42,7 @@ public:
 
 private:
   void include(Part part, bool wanted);
+  void fitImage(const double* bounds);
 
   pcl::shared_ptr<pcl::visualization::PCLVisualizer> visualizer_;
   std::array<vtkSmartPointer<vtkRenderer>, PARTS> renderers_;

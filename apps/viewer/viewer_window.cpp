@@ -26,8 +26,8 @@ namespace pcl_mrf_planes::viewer {
 
 namespace {
 
-constexpr std::chrono::milliseconds TICK(10); // between looks for events
-constexpr double PICK_REACH = 4.0;            // pixels
+constexpr std::chrono::milliseconds TICK(4); // between looks for events
+constexpr double PICK_REACH = 4.0;           // pixels
 using Clock = std::chrono::steady_clock;
 
 void append(const Props& more, Props& props)
@@ -59,6 +59,8 @@ struct ViewerWindow::Parts {
   PointColours left;
   Clock::time_point last = Clock::now();
   int pictures = 0;
+  double full_seconds = 0.0; ///< that drawing all points took last
+  int stride = 1;            ///< of the points that are drawn
   bool done = false;
 
   Parts(Session& s, const WindowOptions& o)
@@ -89,7 +91,7 @@ Props ViewerWindow::Parts::view(const SegmentedView& result,
 {
   const ViewFrame& frame = session.frame();
   colours = colourPoints(frame, result, session.tiles(), settings, classes);
-  Props props = {cloudLayer(frame, colours)};
+  Props props = {cloudLayer(frame, colours, stride)};
   if (settings.contours)
     props.push_back(contourLayer(frame, contoursOf(frame, result), settings));
   if (settings.normals)
@@ -132,7 +134,7 @@ void ViewerWindow::Parts::drawLeft()
     for (io::Colour& colour : dim.colours)
       for (std::uint8_t& channel : colour)
         channel = static_cast<std::uint8_t>(channel / 3);
-    props[0] = cloudLayer(session.frame(), dim);
+    props[0] = cloudLayer(session.frame(), dim, stride);
     append(tileLayer(session.frame(), session.tiles()), props);
   }
   screen.show(Screen::LEFT, props);
@@ -198,6 +200,9 @@ Props ViewerWindow::Parts::texts() const
 
 void ViewerWindow::Parts::draw()
 {
+  // Drawing by software would hold up a sequence: a quarter of the points until it rests.
+  const bool is_slow = full_seconds > 0.5 / session.speed();
+  stride = session.playing() && is_slow ? 2 : 1;
   screen.arrange(session.compares(), session.settings.dark);
   drawLeft();
   drawRight();
@@ -207,7 +212,10 @@ void ViewerWindow::Parts::draw()
     sliders->show(session.settings.sliders && !session.settings.help,
                   session.parameters(), session.settings.dark);
   screen.renderer(Screen::LEFT)->ResetCameraClippingRange();
+  const Clock::time_point before = Clock::now();
   screen.window()->Render();
+  if (stride == 1)
+    full_seconds = std::chrono::duration<double>(Clock::now() - before).count();
 }
 
 void ViewerWindow::Parts::act(Action action)

@@ -279,6 +279,38 @@ TEST_F(Model, SequenceStopsAtItsEndOrLoops)
   EXPECT_FALSE(session.playing());
 }
 
+TEST_F(Model, FramesWorkedOnAheadAreThoseOfADirectLook)
+{
+  std::filesystem::create_directories(path("frames"));
+  for (int k = 0; k < 4; ++k)
+    room("frames/" + std::to_string(k) + ".pcd", k);
+  Session session = open({path("frames")});
+  const auto expectDirectLook = [&] {
+    const std::string name = std::to_string(session.frameIndex());
+    Session direct = open({path("frames/" + name + ".pcd")});
+    direct.setParameters(session.parameters());
+    EXPECT_EQ(session.frame().name, name);
+    EXPECT_EQ(session.main().labels, direct.main().labels) << name;
+    const bool compared = session.other().labels.size() == direct.main().labels.size();
+    EXPECT_EQ(compared, session.compares()) << name;
+  };
+  session.perform(Action::PLAY); // begins with frame 1
+  session.advance(10.0);
+  expectDirectLook();
+  Parameters changed = session.parameters();
+  changed.min_inliers = 3000;
+  session.setParameters(changed); // frame 2 was begun without
+  session.advance(10.0);
+  expectDirectLook();
+  session.perform(Action::COMPARE); // so was frame 3
+  session.advance(10.0);
+  expectDirectLook();
+  session.perform(Action::PREVIOUS_FRAME); // where frame 0 was begun
+  session.perform(Action::PREVIOUS_FRAME);
+  expectDirectLook();
+  EXPECT_EQ(session.frameIndex(), 1u);
+}
+
 TEST_F(Model, BadParametersAreRefused)
 {
   Session session = open({room("room.pcd")});
