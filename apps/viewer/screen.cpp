@@ -62,7 +62,7 @@ Screen::Screen(int width, int height, bool off_screen)
     renderers_[part]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
   keepMarksApart(renderers_[LEFT_MARKS]);
   keepMarksApart(renderers_[RIGHT_MARKS]);
-  renderers_[CHART]->SetViewport(0.60, 0.55, 0.985, 0.97);
+  renderers_[CHART]->SetViewport(0.60, 0.45, 0.985, 0.87);
   arrange(false, true);
 }
 

@@ -28,6 +28,8 @@ namespace {
 
 constexpr std::chrono::milliseconds TICK(4); // between looks for events
 constexpr double PICK_REACH = 4.0;           // pixels
+constexpr const char* MOUSE_HELP =
+    "mouse  left turns, a click picks a point, middle moves, wheel zooms";
 using Clock = std::chrono::steady_clock;
 
 void append(const Props& more, Props& props)
@@ -73,6 +75,7 @@ struct ViewerWindow::Parts {
   Props view(const SegmentedView& result, const std::vector<std::uint32_t>& classes,
              const ViewSettings& settings, PointColours& colours) const;
   static Props marks(const SegmentedView& result, const ViewSettings& settings);
+  static SegmentedView stageOf(const FilmStep& step);
   void drawLeft();
   void drawRight();
   void drawPanels();
@@ -112,13 +115,19 @@ Props ViewerWindow::Parts::marks(const SegmentedView& result,
   return props;
 }
 
+SegmentedView ViewerWindow::Parts::stageOf(const FilmStep& step)
+{
+  SegmentedView stage;
+  stage.labels = step.labels;
+  stage.planes.resize(step.classes.size());
+  return stage;
+}
+
 void ViewerWindow::Parts::drawLeft()
 {
   ViewSettings settings = session.settings;
   if (const FilmStep* step = session.filmStep()) {
-    SegmentedView stage;
-    stage.labels = step->labels;
-    stage.planes.resize(step->classes.size());
+    const SegmentedView stage = stageOf(*step);
     settings.mode = ColourMode::PLANE;
     settings.normals = settings.isolate = false;
     settings.selected = 0;
@@ -162,16 +171,19 @@ void ViewerWindow::Parts::drawPanels()
 {
   const ViewSettings& settings = session.settings;
   Props image, chart;
+  const FilmStep* step = session.filmStep();
   if (settings.panel != Panel::OFF)
-    image.push_back(imageLayer(panelImage(session.frame(), session.main(),
-                                          settings.panel, session.mainColours())));
-  if (session.filmStep() != nullptr && !session.film().energy.empty()) {
+    image.push_back(imageLayer(
+        panelImage(session.frame(), step ? stageOf(*step) : session.main(),
+                   settings.panel, step ? step->classes : session.mainColours())));
+  if (step != nullptr && !session.film().energy.empty()) {
     // The curve grows with the film; after the last iteration it stays whole.
     int shown = -1;
     for (int k = 0; k <= settings.film_step; ++k)
       shown =
           std::max(shown, session.film().steps[static_cast<std::size_t>(k)].iteration);
-    chart.push_back(energyLayer(session.film().energy, shown, settings.dark));
+    if (shown >= 0) // VTK draws no axes without a curve
+      chart.push_back(energyLayer(session.film().energy, shown, settings.dark));
   }
   screen.show(Screen::IMAGE, image);
   screen.show(Screen::CHART, chart);
@@ -182,7 +194,7 @@ Props ViewerWindow::Parts::texts() const
   const ViewSettings& settings = session.settings;
   const bool dark = settings.dark;
   if (settings.help)
-    return {textLayer(keyHelp(), 0.30, 0.98, true, dark, 14)};
+    return {textLayer(keyHelp() + MOUSE_HELP, 0.30, 0.98, true, dark, 14)};
   Props props;
   if (settings.facts) {
     props.push_back(textLayer(factsText(session), 0.01, 0.985, true, dark));
@@ -194,7 +206,9 @@ Props ViewerWindow::Parts::texts() const
     below += left.legend + '\n';
   below += session.message();
   if (!below.empty())
-    props.push_back(textLayer(below, 0.01, 0.015, false, dark));
+    // Sliders reach down to where it would stand.
+    props.push_back(
+        textLayer(below, settings.sliders ? 0.29 : 0.01, 0.015, false, dark));
   return props;
 }
 
