@@ -89,7 +89,7 @@ bool Session::performView(Action action)
     updateStages();
     return true;
   case Action::PANEL:
-    settings.panel = following(settings.panel, Panel::LABELS_ON_DEPTH);
+    settings.panel = following(settings.panel, Panel::COLOUR_AND_DEPTH);
     return true;
   case Action::COMPARE:
     settings.comparison = following(settings.comparison, Comparison::PCL);

@@ -13,7 +13,7 @@ enum class ColourMode { PLANE, DEPTH, OWN, CONFIDENCE, DISTANCE, TILE_ERROR };
 enum class Comparison { OFF, DEFAULT, FAST, PAPER, PCL };
 
 /** \brief What the 2-D panel shows. */
-enum class Panel { OFF, LABELS_ON_COLOUR, LABELS_ON_DEPTH };
+enum class Panel { OFF, LABELS_ON_COLOUR, LABELS_ON_DEPTH, COLOUR_AND_DEPTH };
 
 /** \brief How the result is shown. */
 struct ViewSettings {

@@ -75,6 +75,7 @@ struct ViewerWindow::Parts {
   Props view(const SegmentedView& result, const std::vector<std::uint32_t>& classes,
              const ViewSettings& settings, PointColours& colours) const;
   static Props marks(const SegmentedView& result, const ViewSettings& settings);
+  Layout layout() const;
   static SegmentedView stageOf(const FilmStep& step);
   void drawLeft();
   void drawRight();
@@ -113,6 +114,19 @@ Props ViewerWindow::Parts::marks(const SegmentedView& result,
   if (settings.creases && result.creases)
     append(angleMarks(result.creases(), settings), props);
   return props;
+}
+
+Layout ViewerWindow::Parts::layout() const
+{
+  const OrganizedPoints& points = session.frame().points;
+  Layout layout;
+  layout.side_by_side = session.compares();
+  layout.chart = session.filmStep() != nullptr && !session.film().energy.empty();
+  layout.column =
+      layout.chart || (session.settings.panel != Panel::OFF &&
+                       Screen::belongsInColumn(points.width, points.height));
+  layout.dark = session.settings.dark;
+  return layout;
 }
 
 SegmentedView ViewerWindow::Parts::stageOf(const FilmStep& step)
@@ -199,7 +213,8 @@ Props ViewerWindow::Parts::texts() const
   if (settings.facts) {
     props.push_back(textLayer(factsText(session), 0.01, 0.985, true, dark));
     if (session.compares())
-      props.push_back(textLayer(comparisonText(session), 0.51, 0.985, true, dark));
+      props.push_back(textLayer(comparisonText(session), 0.5 * screen.viewEnd() + 0.01,
+                                0.985, true, dark));
   }
   std::string below = selectionText(session);
   if (settings.facts && session.filmStep() == nullptr)
@@ -217,7 +232,7 @@ void ViewerWindow::Parts::draw()
   // Drawing by software would hold up a sequence: a quarter of the points until it rests.
   const bool is_slow = full_seconds > 0.5 / session.speed();
   stride = session.playing() && is_slow ? 2 : 1;
-  screen.arrange(session.compares(), session.settings.dark);
+  screen.arrange(layout());
   drawLeft();
   drawRight();
   drawPanels();
@@ -236,7 +251,7 @@ void ViewerWindow::Parts::act(Action action)
 {
   session.perform(action);
   if (action == Action::COMPARE || action == Action::RESET_CAMERA) {
-    screen.arrange(session.compares(), session.settings.dark);
+    screen.arrange(layout());
     screen.look(sensorView(session.frame()));
   }
   if (action == Action::SCREENSHOT) {
