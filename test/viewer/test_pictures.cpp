@@ -176,6 +176,31 @@ TEST_F(Pictures, FilmOfASequenceHasAPictureForEachFrame)
   EXPECT_GT(countDifferences(first, second), 1000u);
 }
 
+TEST_F(Pictures, FilmHasNoPictureOfAFrameThatCannotBeRead)
+{
+  std::filesystem::create_directories(path("frames"));
+  room("frames/a.pcd", 1);
+  std::ofstream(path("frames/b.pcd")) << "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\n";
+  room("frames/c.pcd", 2);
+  const Outcome seen =
+      view({path("frames"), "--film", path("film"), "--window", "320x240"});
+  EXPECT_EQ(seen.status, 0);
+  EXPECT_NE(seen.err.find("b.pcd"), std::string::npos) << seen.err;
+  EXPECT_EQ(readPicture(path("film/frame_00000.png")).width, 320);
+  EXPECT_FALSE(std::filesystem::exists(path("film/frame_00001.png")));
+  EXPECT_EQ(readPicture(path("film/frame_00002.png")).width, 320);
+}
+
+TEST_F(Pictures, OutputThatIsNotTakenIsAnError)
+{
+  if (!std::filesystem::is_character_file("/dev/full"))
+    GTEST_SKIP() << "no /dev/full here";
+  const Outcome seen =
+      run("/bin/sh", {"-c", "'" PCL_MRF_PLANES_VIEWER_APP "' --help >/dev/full"});
+  EXPECT_EQ(seen.status, 1);
+  EXPECT_NE(seen.err.find("cannot write to standard output"), std::string::npos);
+}
+
 TEST_F(Pictures, BadInputIsAMessageAndAStatus)
 {
   std::ofstream(path("broken.pcd")) << "VERSION 0.7\nFIELDS x y z\n";
@@ -187,6 +212,10 @@ TEST_F(Pictures, BadInputIsAMessageAndAStatus)
     EXPECT_FALSE(std::filesystem::exists(path("picture.png")));
   }
   const std::string input = room("room.pcd");
+  std::ofstream(path("file")) << "no folder\n";
+  const Outcome no_folder = view({input, "--film", path("file")});
+  EXPECT_EQ(no_folder.status, 1);
+  EXPECT_NE(no_folder.err.find("--film"), std::string::npos) << no_folder.err;
   const Outcome unwritable = view({input, "--screenshot", path("no/such/folder.png")});
   EXPECT_EQ(unwritable.status, 1);
   EXPECT_NE(unwritable.err.find("folder.png"), std::string::npos) << unwritable.err;
