@@ -27,7 +27,8 @@ namespace pcl_mrf_planes::viewer {
 namespace {
 
 constexpr std::chrono::milliseconds TICK(4); // between looks for events
-constexpr double PICK_REACH = 4.0;           // pixels
+constexpr double DRAG_SECONDS = 0.03; // that drawing may take while a slider is dragged
+constexpr double PICK_REACH = 4.0;    // pixels
 constexpr const char* MOUSE_HELP =
     "mouse  left turns, a click picks a point, middle moves, wheel zooms";
 using Clock = std::chrono::steady_clock;
@@ -81,6 +82,7 @@ struct ViewerWindow::Parts {
   void drawRight();
   void drawPanels();
   Props texts() const;
+  void prepare(bool coarse);
   void draw();
   void act(Action action);
   void click(int x, int y);
@@ -227,11 +229,9 @@ Props ViewerWindow::Parts::texts() const
   return props;
 }
 
-void ViewerWindow::Parts::draw()
+void ViewerWindow::Parts::prepare(bool coarse)
 {
-  // Drawing by software would hold up a sequence: a quarter of the points until it rests.
-  const bool is_slow = full_seconds > 0.5 / session.speed();
-  stride = session.playing() && is_slow ? 2 : 1;
+  stride = coarse ? 2 : 1;
   screen.arrange(layout());
   drawLeft();
   drawRight();
@@ -241,6 +241,12 @@ void ViewerWindow::Parts::draw()
     sliders->show(session.settings.sliders && !session.settings.help,
                   session.parameters(), session.settings.dark);
   screen.renderer(Screen::LEFT)->ResetCameraClippingRange();
+}
+
+void ViewerWindow::Parts::draw()
+{
+  // Drawing by software would hold up a sequence: a quarter of the points until it rests.
+  prepare(session.playing() && full_seconds > 0.5 / session.speed());
   const Clock::time_point before = Clock::now();
   screen.window()->Render();
   if (stride == 1)
@@ -326,9 +332,10 @@ ViewerWindow::ViewerWindow(Session& session, const WindowOptions& options)
       parts.interactor, parts.screen.renderer(Screen::OVERLAY),
       [&parts](std::size_t slider, double value) {
         parts.session.useSlider(slider, value);
-        parts.draw();
+        parts.prepare(parts.full_seconds > DRAG_SECONDS);
         parts.log();
-      });
+      },
+      [&parts] { parts.draw(); });
   parts.screen.look(sensorView(session.frame()));
   draw();
 }
