@@ -53,6 +53,10 @@ vtkSmartPointer<vtkProp> imageLayer(const io::ColourImage& image);
 vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int shown,
                                      bool dark);
 
+/** \brief A bar with the colours of a scale and the values that they stand for, on a plate.
+ * \param[in] right its right edge, in shares of the window */
+vtkSmartPointer<vtkProp> scaleLayer(const ColourScale& scale, double right, bool dark);
+
 /** \brief Lines of text on a plate; (x, y) in shares of the window.
  * \param[in] from_top y is the upper edge, else the lower */
 vtkSmartPointer<vtkProp> textLayer(const std::string& text, double x, double y,

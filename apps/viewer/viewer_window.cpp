@@ -96,7 +96,8 @@ Props ViewerWindow::Parts::view(const SegmentedView& result,
                                 PointColours& colours) const
 {
   const ViewFrame& frame = session.frame();
-  colours = colourPoints(frame, result, session.tiles(), settings, classes);
+  colours =
+      colourPoints(frame, result, session.tiles(), settings, classes, colours.scale);
   Props props = {cloudLayer(frame, colours, stride)};
   if (settings.contours)
     props.push_back(contourLayer(frame, contoursOf(frame, result), settings));
@@ -141,6 +142,7 @@ SegmentedView ViewerWindow::Parts::stageOf(const FilmStep& step)
 
 void ViewerWindow::Parts::drawLeft()
 {
+  left.scale.reset();
   ViewSettings settings = session.settings;
   if (const FilmStep* step = session.filmStep()) {
     const SegmentedView stage = stageOf(*step);
@@ -178,6 +180,7 @@ void ViewerWindow::Parts::drawRight()
   settings.isolate = false;
   settings.hidden.clear();
   PointColours colours;
+  colours.scale = left.scale; // what is compared has one scale
   screen.show(Screen::RIGHT,
               view(session.other(), session.otherColours(), settings, colours));
   screen.show(Screen::RIGHT_MARKS, marks(session.other(), settings));
@@ -218,6 +221,8 @@ Props ViewerWindow::Parts::texts() const
       props.push_back(textLayer(comparisonText(session), 0.5 * screen.viewEnd() + 0.01,
                                 0.985, true, dark));
   }
+  if (left.scale && session.filmStep() == nullptr)
+    props.push_back(scaleLayer(*left.scale, screen.viewEnd(), dark));
   std::string below = selectionText(session);
   if (settings.facts && session.filmStep() == nullptr)
     below += left.legend + '\n';

@@ -135,6 +135,26 @@ TEST_F(Model, ComparesSideBySide)
   EXPECT_FALSE(session.compares());
 }
 
+TEST_F(Model, WhatIsComparedHasOneScale)
+{
+  Session session = open({room("room.pcd")});
+  session.settings.mode = ColourMode::DISTANCE;
+  const auto colours = [&](const SegmentedView& view,
+                           const std::optional<ColourScale>& scale) {
+    return colourPoints(session.frame(), view, {}, session.settings, {}, scale);
+  };
+  Session paper = open({path("room.pcd")}, Profile::PAPER);
+  const PointColours left = colours(session.main(), {});
+  ASSERT_TRUE(left.scale);
+  const PointColours alone = colours(paper.main(), {});
+  const PointColours right = colours(paper.main(), left.scale);
+  EXPECT_EQ(right.scale->high, left.scale->high);
+  EXPECT_GT(alone.scale->high, left.scale->high) << "worse planes";
+  EXPECT_NE(right.colours, alone.colours);
+  session.settings.mode = ColourMode::PLANE;
+  EXPECT_FALSE(colours(session.main(), {}).scale);
+}
+
 TEST_F(Model, HidesAndIsolatesPlanes)
 {
   Session session = open({room("room.pcd")});
