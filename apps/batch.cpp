@@ -136,8 +136,6 @@ void printList(const std::vector<io::FrameSource>& frames)
 {
   for (const io::FrameSource& frame : frames)
     std::cout << frame.name << '\t' << frame.reader << '\t' << frame.input << '\n';
-  if (!std::cout.flush())
-    throw std::runtime_error("cannot write to standard output");
 }
 
 } // namespace
@@ -165,8 +163,6 @@ int runBatch(const Options& options)
     if (!list.passed_over.empty())
       std::cout << list.passed_over.size() << " files that are no frames passed over\n";
     printSummary(std::cout, outcomes, passed.count());
-    if (!std::cout.flush())
-      throw std::runtime_error("cannot write to standard output");
   }
   if (interrupted())
     return INTERRUPTED;

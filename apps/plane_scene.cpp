@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** \file Command line: writes a picture of a made-up scene with its ground truth. */
+#include "app_main.h"
+#include "option_values.h"
 #include "output_file.h"
 
 #include "scenes/render.h"
 #include "scenes/scene_library.h"
 
-#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/png_io.h>
 #include <pcl/point_types.h>
@@ -27,19 +28,15 @@
 namespace {
 
 namespace po = boost::program_options;
+namespace apps = pcl_mrf_planes::apps;
 namespace scenes = pcl_mrf_planes::scenes;
-using pcl_mrf_planes::apps::checkWritable;
-using pcl_mrf_planes::apps::writeAtomically;
+using apps::checkWritable;
+using apps::UsageError;
+using apps::writeAtomically;
 
 constexpr const char* PROGRAM = "pcl_mrf_plane_scene";
 constexpr double GAUSSIAN_UNIT = 0.01; // metres: what --noise 1 means
 constexpr int LARGEST_SIDE = 8192;     // pixels
-
-/// The call was wrong: exit status 2.
-class UsageError : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
 
 struct Options {
   bool help = false;
@@ -296,33 +293,25 @@ void run(const Options& options)
   writeCloud(options.output, options.format, frame);
 }
 
+void printHelp()
+{
+  Options defaults;
+  std::cout << "Usage: " << PROGRAM << " out.pcd [options]\n\n"
+            << "Writes an organized cloud of a made-up scene, seen by a depth camera "
+               "or a lidar,\nand its exact planes.\n\n"
+            << describe(defaults);
+}
+
 } // namespace
 
 int main(int argc, char* argv[])
 {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  try {
+  return apps::runApp({PROGRAM, "make fewer points with --width and --height"}, [&] {
     const Options options = parseOptions(argc, argv);
-    if (options.help) {
-      Options defaults;
-      std::cout
-          << "Usage: " << PROGRAM << " out.pcd [options]\n\n"
-          << "Writes an organized cloud of a made-up scene, seen by a depth camera "
-             "or a lidar,\nand its exact planes.\n\n"
-          << describe(defaults);
-      if (!std::cout.flush())
-        throw std::runtime_error("cannot write to standard output");
-      return 0;
-    }
-    run(options);
+    if (options.help)
+      printHelp();
+    else
+      run(options);
     return 0;
-  }
-  catch (const UsageError& error) {
-    std::cerr << PROGRAM << ": " << error.what() << '\n';
-    return 2;
-  }
-  catch (const std::exception& error) {
-    std::cerr << PROGRAM << ": " << error.what() << '\n';
-  }
-  return 1;
+  });
 }

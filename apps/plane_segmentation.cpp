@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** \file Command line: segments clouds and depth images into planes. */
+#include "app_main.h"
 #include "batch.h"
 #include "command_line.h"
 #include "frame_outputs.h"
@@ -13,12 +14,8 @@
 
 #include <pcl_mrf_planes/io/frame.h>
 
-#include <pcl/console/print.h>
-
-#include <exception>
 #include <filesystem>
 #include <iostream>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -30,8 +27,6 @@ using namespace pcl_mrf_planes;
 using namespace pcl_mrf_planes::apps;
 
 constexpr const char* PROGRAM = "pcl_mrf_plane_segmentation";
-constexpr int FAILURE = 1;
-constexpr int WRONG_USAGE = 2;
 
 /// The only frame of the input.
 io::FrameSource singleFrame(const Options& options)
@@ -74,8 +69,6 @@ int runSingle(const Options& options)
   if (options.timing)
     printTiming(std::cout, all.result.timing);
   printSummary(std::cout, all.result, options.parameters);
-  if (!std::cout.flush())
-    throw std::runtime_error("cannot write to standard output");
   return 0;
 }
 
@@ -92,9 +85,7 @@ int run(const Options& options)
 
 int main(int argc, char* argv[])
 {
-  // What PCL would print is said by the messages below, with what to do about it.
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  try {
+  return runApp({PROGRAM, "cut the cloud into parts"}, [&] {
     const Options options = parseOptions(argc, argv);
     if (options.help)
       std::cout << helpText();
@@ -102,19 +93,6 @@ int main(int argc, char* argv[])
       std::cout << PROGRAM << ' ' << PCL_MRF_PLANES_VERSION << '\n';
     else
       return run(options);
-    if (!std::cout.flush())
-      throw std::runtime_error("cannot write to standard output");
     return 0;
-  }
-  catch (const UsageError& error) {
-    std::cerr << PROGRAM << ": " << error.what() << '\n';
-    return WRONG_USAGE;
-  }
-  catch (const std::bad_alloc&) {
-    std::cerr << PROGRAM << ": not enough memory; cut the cloud into parts\n";
-  }
-  catch (const std::exception& error) {
-    std::cerr << PROGRAM << ": " << error.what() << '\n';
-  }
-  return FAILURE;
+  });
 }

@@ -20,7 +20,7 @@ constexpr double NOISE_WIDTH = 3.0;
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-/// Points on either side of the border of two regions.
+/// Points on either side of the border of two regions, in turns: of the first, of the second.
 using Borders = std::map<Pair, std::vector<Eigen::Vector3d>>;
 
 /// Walks along rows and columns and notes where the label changes.
@@ -102,8 +102,9 @@ private:
       pair_ = pair;
       border_ = &borders_[pair];
     }
-    border_->push_back(point(a));
-    border_->push_back(point(b));
+    const bool in_order = first < second;
+    border_->push_back(point(in_order ? a : b));
+    border_->push_back(point(in_order ? b : a));
   }
 
   Eigen::Vector3d point(int index) const
@@ -120,21 +121,56 @@ private:
   std::vector<Eigen::Vector3d>* border_ = nullptr;
 };
 
-/// Cuts what lies on a line where nothing does for too long.
-std::vector<std::pair<double, double>> piecesOf(std::vector<double>& places,
-                                                const CreaseParameters& parameters,
-                                                std::vector<int>& counts)
+/// A point of the border that lies on the line.
+struct CreasePoint {
+  double place = 0.0; ///< along the line, metres
+  double bulge = 0.0; ///< see bulgeOf()
+  bool operator<(const CreasePoint& other) const { return place < other.place; }
+};
+
+struct Piece {
+  double start = 0.0;
+  double end = 0.0;
+  double bulge = 0.0; ///< sum of its points
+  int points = 0;
+};
+
+/// How far the ray through \a p meets \a plane in front of \a other, metres.
+double heightAt(const Eigen::Vector3d& p, const Plane& plane, const Plane& other)
 {
-  std::sort(places.begin(), places.end());
-  std::vector<std::pair<double, double>> pieces;
-  for (std::size_t begin = 0; begin < places.size();) {
-    std::size_t end = begin + 1;
-    while (end < places.size() && places[end] - places[end - 1] <= parameters.max_gap)
+  return other.distance(-plane.d / plane.normal.dot(p) * p);
+}
+
+/// Positive where two neighbours across a border are on an edge that bulges towards the
+/// sensor: away from it each plane goes behind the other one. Between two rays that is a
+/// matter of the planes alone; noise of the points and of the border's place drop out.
+double bulgeOf(const Eigen::Vector3d& in_a, const Eigen::Vector3d& in_b, const Plane& a,
+               const Plane& b)
+{
+  const double bulge = heightAt(in_b, a, b) - heightAt(in_a, a, b) +
+                       heightAt(in_a, b, a) - heightAt(in_b, b, a);
+  return std::isfinite(bulge) ? bulge : 0.0;
+}
+
+/// Cuts what lies on a line where nothing does for too long.
+std::vector<Piece> piecesOf(std::vector<CreasePoint>& points,
+                            const CreaseParameters& parameters)
+{
+  std::sort(points.begin(), points.end());
+  std::vector<Piece> pieces;
+  for (std::size_t begin = 0; begin < points.size();) {
+    Piece piece;
+    piece.start = points[begin].place;
+    std::size_t end = begin;
+    do {
+      piece.bulge += points[end].bulge;
+      piece.end = points[end].place;
       ++end;
-    if (static_cast<int>(end - begin) >= parameters.min_points) {
-      pieces.emplace_back(places[begin], places[end - 1]);
-      counts.push_back(static_cast<int>(end - begin));
-    }
+    } while (end < points.size() &&
+             points[end].place - piece.end <= parameters.max_gap);
+    piece.points = static_cast<int>(end - begin);
+    if (piece.points >= parameters.min_points)
+      pieces.push_back(piece);
     begin = end;
   }
   return pieces;
@@ -157,20 +193,19 @@ void addCreases(const std::vector<PlaneRegion>& regions, const Pair& pair,
     return;
   const double tolerance =
       std::max(parameters.tolerance, NOISE_WIDTH * std::max(a.rms, b.rms));
-  std::vector<double> places;
-  for (const Eigen::Vector3d& p : border) {
+  std::vector<CreasePoint> points;
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    const Eigen::Vector3d& p = border[k];
     const double place = direction.dot(p - origin);
     if ((p - origin - place * direction).norm() <= tolerance)
-      places.push_back(place);
+      points.push_back({place, bulgeOf(border[k & ~std::size_t{1}], border[k | 1U],
+                                       a.plane, b.plane)});
   }
-  // Of a convex edge each face lies behind the other one's plane.
-  crease.convex = a.plane.distance(b.centroid) + b.plane.distance(a.centroid) < 0.0;
-  std::vector<int> counts;
-  const auto pieces = piecesOf(places, parameters, counts);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    crease.start = origin + pieces[k].first * direction;
-    crease.end = origin + pieces[k].second * direction;
-    crease.points = counts[k];
+  for (const Piece& piece : piecesOf(points, parameters)) {
+    crease.start = origin + piece.start * direction;
+    crease.end = origin + piece.end * direction;
+    crease.points = piece.points;
+    crease.convex = piece.bulge > 0.0;
     creases.push_back(crease);
   }
 }

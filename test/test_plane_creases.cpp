@@ -96,6 +96,45 @@ TEST(PlaneCreasesTest, EdgesOfABoxAreFoundWithTheirEndPoints)
   }
 }
 
+// A wall goes on behind the jamb of its door: most of it, and its centroid, lie before the
+// jamb's plane, though where they meet is an edge; and beyond it is a corner.
+TEST(PlaneCreasesTest, EdgesAreToldFromCornersWhereTheyAre)
+{
+  scenes::Scene scene;
+  scene.beginObject();
+  const scenes::Colour gray(0.5, 0.5, 0.5);
+  const auto wall = [&](double from, double to, double y) {
+    scene.addPolygon({{from, y, -1}, {to, y, -1}, {to, y, 1}, {from, y, 1}}, gray);
+  };
+  wall(-2, 0, 2);
+  wall(0.4, 0.8, 2);
+  wall(0, 0.4, 2.5); // the door
+  scene.addPolygon({{0.4, 2, -1}, {0.4, 2.5, -1}, {0.4, 2.5, 1}, {0.4, 2, 1}}, gray);
+  for (const double sigma : {0.0, 0.004}) {
+    const auto frame = scenes::render(scene, scenes::lookAt({-0.6, 0, 0}, {-0.2, 2, 0}),
+                                      scenes::SensorNoise::gaussian(sigma), 1);
+    const OrganizedPoints points = reference::toPoints(frame);
+    auto frame_of_wholes = frame; // both parts of the wall are one plane
+    for (std::uint16_t& label : frame_of_wholes.labels)
+      for (std::uint16_t k = 1; k < label; ++k)
+        if (frame.planes[k - 1U].isApprox(frame.planes[label - 1U], 1e-6))
+          label = k;
+    const auto regions = trueRegions(frame_of_wholes, points);
+    ASSERT_EQ(regions.size(), 3U) << "wall, door, jamb";
+    int edges = 0, corners = 0;
+    for (const PlaneCrease& crease : findCreases(points, regions)) {
+      const Eigen::Vector3d middle =
+          frame.camera.to_world * Eigen::Vector3d(0.5 * (crease.start + crease.end));
+      EXPECT_NEAR(middle.x(), 0.4, 0.03);
+      const bool is_edge = middle.y() < 2.25;
+      EXPECT_EQ(crease.convex, is_edge) << middle.transpose();
+      ++(is_edge ? edges : corners);
+    }
+    EXPECT_GT(edges, 0);
+    EXPECT_GT(corners, 0);
+  }
+}
+
 TEST(PlaneCreasesTest, ARoomsCornerHasThreeThatMeet)
 {
   scenes::View view = scenes::corner();

@@ -18,6 +18,7 @@ enum class Action {
   BY_TILE_ERROR,
   CONTOURS,
   NORMALS,
+  CREASES,
   TILES,
   PANEL,
   COMPARE,

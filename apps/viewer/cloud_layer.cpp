@@ -29,12 +29,28 @@ vtkSmartPointer<vtkActor> actorOf(vtkPolyData* data)
   return actor;
 }
 
+std::vector<std::size_t> shownPoints(const ViewFrame& frame,
+                                     const PointColours& colours, int step)
+{
+  std::vector<std::size_t> shown;
+  for (int y = 0; y < frame.points.height; y += step)
+    for (int x = 0; x < frame.points.width; x += step) {
+      const auto i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.points.width) +
+          static_cast<std::size_t>(x);
+      if (colours.shown[i])
+        shown.push_back(i);
+    }
+  return shown;
+}
+
 } // namespace
 
-vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& colours)
+vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& colours,
+                                    int step)
 {
-  const auto count = static_cast<vtkIdType>(
-      std::count(colours.shown.begin(), colours.shown.end(), true));
+  const std::vector<std::size_t> shown = shownPoints(frame, colours, step);
+  const auto count = static_cast<vtkIdType>(shown.size());
   vtkNew<vtkFloatArray> places;
   places->SetNumberOfComponents(3);
   places->SetNumberOfTuples(count);
@@ -46,9 +62,7 @@ vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& 
   float* place = places->GetPointer(0);
   unsigned char* shade = shades->GetPointer(0);
   vtkIdType next = 0;
-  for (std::size_t i = 0; i < colours.shown.size(); ++i) {
-    if (!colours.shown[i])
-      continue;
+  for (const std::size_t i : shown) {
     const pcl::PointXYZ& p = (*frame.cloud)[i];
     place = std::copy(p.data, p.data + 3, place);
     shade = std::copy(colours.colours[i].begin(), colours.colours[i].end(), shade);
@@ -64,17 +78,19 @@ vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& 
   data->SetVerts(vertices);
   data->GetPointData()->SetScalars(shades);
   vtkSmartPointer<vtkActor> actor = actorOf(data);
-  actor->GetProperty()->SetPointSize(3.0f);
+  actor->GetProperty()->SetPointSize(step == 1 ? 3.0f : 5.0f);
   return actor;
 }
 
 vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
                                       const std::vector<LabelContour>& contours,
-                                      bool dark)
+                                      const ViewSettings& settings)
 {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   for (const LabelContour& contour : contours) {
+    if (!settings.shows(contour.label))
+      continue;
     const vtkIdType first = points->GetNumberOfPoints();
     lines->InsertNextCell(static_cast<int>(contour.points.size()) + 1);
     for (const int index : contour.points) {
@@ -87,7 +103,7 @@ vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
   data->SetPoints(points);
   data->SetLines(lines);
   vtkSmartPointer<vtkActor> actor = actorOf(data);
-  const double shade = dark ? 1.0 : 0.0;
+  const double shade = settings.dark ? 1.0 : 0.0;
   actor->GetProperty()->SetColor(shade, shade, shade);
   actor->GetProperty()->SetLineWidth(2.0f);
   // In front of the points that they run through.

@@ -80,8 +80,9 @@ vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int show
   const double low =
       energy.empty() ? 0.0 : *std::min_element(energy.begin(), energy.end());
   const double margin = 0.05 * std::max(high - low, 1e-9);
-  dressAxis(chart->GetAxis(vtkAxis::BOTTOM), "iterations", 0.0,
-            std::max(1.0, static_cast<double>(energy.size()) - 1.0), dark);
+  const double last = std::max(1.0, static_cast<double>(energy.size()) - 1.0);
+  dressAxis(chart->GetAxis(vtkAxis::BOTTOM), "iterations", -0.03 * last, 1.03 * last,
+            dark);
   dressAxis(chart->GetAxis(vtkAxis::LEFT), "energy", low - margin, high + margin, dark);
   countIterations(chart->GetAxis(vtkAxis::BOTTOM), static_cast<int>(energy.size()) - 1);
   auto actor = vtkSmartPointer<vtkContextActor>::New();

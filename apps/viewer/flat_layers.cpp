@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "layers.h"
+#include "marks.h"
 
 #include <vtkImageActor.h>
 #include <vtkImageData.h>
@@ -39,12 +40,9 @@ vtkSmartPointer<vtkProp> textLayer(const std::string& text, double x, double y,
   actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   actor->SetPosition(x, y);
   vtkTextProperty* property = actor->GetTextProperty();
-  const double shade = dark ? 1.0 : 0.0;
   property->SetFontFamilyToCourier();
   property->SetFontSize(font_size);
-  property->SetColor(shade, shade, shade);
-  property->SetBackgroundColor(1.0 - shade, 1.0 - shade, 1.0 - shade);
-  property->SetBackgroundOpacity(0.7);
+  dressText(property, dark);
   if (from_top)
     property->SetVerticalJustificationToTop();
   else

@@ -16,17 +16,30 @@ namespace pcl_mrf_planes::viewer {
 
 using Props = std::vector<vtkSmartPointer<vtkProp>>;
 
-/** \brief The points that are shown, in their colours. */
-vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame,
-                                    const PointColours& colours);
+/** \brief The points that are shown, in their colours.
+ * \param[in] step 2: only every second point of every second row, for the larger ones */
+vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& colours,
+                                    int step = 1);
 
 /** \brief Contours as lines in one colour that stands out from the background. */
 vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
                                       const std::vector<LabelContour>& contours,
-                                      bool dark);
+                                      const ViewSettings& settings);
 
-/** \brief An arrow along the normal of every plane, and its number. */
-Props normalLayer(const SegmentedView& view, bool dark);
+/** \brief An arrow along the normal of every plane that is shown. */
+vtkSmartPointer<vtkProp> normalLayer(const SegmentedView& view,
+                                     const ViewSettings& settings);
+
+/** \brief The numbers of the planes, at the tips of their arrows. */
+Props numberMarks(const SegmentedView& view, const ViewSettings& settings);
+
+/** \brief Creases of the planes that are shown as thick lines: convex ones red, concave
+ * ones blue. */
+Props creaseLayer(const std::vector<PlaneCrease>& creases,
+                  const ViewSettings& settings);
+
+/** \brief The angles between the normals, degrees, in the middle of the creases. */
+Props angleMarks(const std::vector<PlaneCrease>& creases, const ViewSettings& settings);
 
 /** \brief Every tile as a square on its points: filled in the colour of the plane that it
  * merged into; tiles that were not kept as gray outlines. */
@@ -39,6 +52,10 @@ vtkSmartPointer<vtkProp> imageLayer(const io::ColourImage& image);
  * of it. */
 vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int shown,
                                      bool dark);
+
+/** \brief A bar with the colours of a scale and the values that they stand for, on a plate.
+ * \param[in] right its right edge, in shares of the window */
+vtkSmartPointer<vtkProp> scaleLayer(const ColourScale& scale, double right, bool dark);
 
 /** \brief Lines of text on a plate; (x, y) in shares of the window.
  * \param[in] from_top y is the upper edge, else the lower */

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "layers.h"
+#include "marks.h"
 
 #include <vtkActor.h>
 #include <vtkArrowSource.h>
-#include <vtkBillboardTextActor3D.h>
 #include <vtkDoubleArray.h>
 #include <vtkGlyph3D.h>
 #include <vtkNew.h>
@@ -12,7 +12,6 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,46 +21,32 @@ namespace pcl_mrf_planes::viewer {
 namespace {
 
 /// Long on large planes, and never lost on small ones; metres.
-double arrowLength(const ViewPlane& plane, double largest)
+std::vector<Eigen::Vector3d> arrowsOf(const SegmentedView& view)
 {
-  return std::max(0.06 * largest, 0.25 * std::sqrt(static_cast<double>(plane.area)));
-}
-
-vtkSmartPointer<vtkProp> numberAt(const Eigen::Vector3d& place, std::size_t number,
-                                  bool dark)
-{
-  auto actor = vtkSmartPointer<vtkBillboardTextActor3D>::New();
-  actor->SetInput(std::to_string(number).c_str());
-  actor->SetPosition(place.x(), place.y(), place.z());
-  vtkTextProperty* property = actor->GetTextProperty();
-  const double shade = dark ? 1.0 : 0.0;
-  property->SetColor(shade, shade, shade);
-  property->SetBackgroundColor(1.0 - shade, 1.0 - shade, 1.0 - shade);
-  property->SetBackgroundOpacity(0.6);
-  property->SetFontSize(16);
-  property->BoldOn();
-  property->SetJustificationToCentered();
-  return actor;
+  double largest = 0.0;
+  for (const ViewPlane& plane : view.planes)
+    largest = std::max(largest, std::sqrt(plane.area));
+  std::vector<Eigen::Vector3d> arrows;
+  for (const ViewPlane& plane : view.planes)
+    arrows.push_back(std::max({0.1, 0.06 * largest, 0.25 * std::sqrt(plane.area)}) *
+                     plane.normal);
+  return arrows;
 }
 
 } // namespace
 
-Props normalLayer(const SegmentedView& view, bool dark)
+vtkSmartPointer<vtkProp> normalLayer(const SegmentedView& view,
+                                     const ViewSettings& settings)
 {
   vtkNew<vtkPoints> places;
   vtkNew<vtkDoubleArray> normals;
   normals->SetNumberOfComponents(3);
-  Props props(1);
-  double largest = 0.0;
-  for (const ViewPlane& plane : view.planes)
-    largest = std::max(largest, std::sqrt(plane.area));
-  for (std::size_t k = 0; k < view.planes.size(); ++k) {
-    const ViewPlane& plane = view.planes[k];
-    const Eigen::Vector3d arrow =
-        std::max(0.1, arrowLength(plane, largest)) * plane.normal;
-    places->InsertNextPoint(plane.centroid.data());
-    normals->InsertNextTuple(arrow.data());
-    props.push_back(numberAt(plane.centroid + 1.15 * arrow, k + 1, dark));
+  const std::vector<Eigen::Vector3d> arrows = arrowsOf(view);
+  for (std::size_t k = 0; k < arrows.size(); ++k) {
+    if (!settings.shows(static_cast<std::uint16_t>(k + 1)))
+      continue;
+    places->InsertNextPoint(view.planes[k].centroid.data());
+    normals->InsertNextTuple(arrows[k].data());
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(places);
@@ -73,12 +58,22 @@ Props normalLayer(const SegmentedView& view, bool dark)
   glyphs->SetScaleModeToScaleByVector();
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(glyphs->GetOutputPort());
-  vtkNew<vtkActor> actor;
+  auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
-  const double shade = dark ? 0.95 : 0.15;
+  const double shade = settings.dark ? 0.95 : 0.15;
   actor->GetProperty()->SetColor(shade, shade, shade);
-  props[0] = actor;
-  return props;
+  return actor;
+}
+
+Props numberMarks(const SegmentedView& view, const ViewSettings& settings)
+{
+  Props marks;
+  const std::vector<Eigen::Vector3d> arrows = arrowsOf(view);
+  for (std::size_t k = 0; k < arrows.size(); ++k)
+    if (settings.shows(static_cast<std::uint16_t>(k + 1)))
+      marks.push_back(markAt(view.planes[k].centroid + 1.15 * arrows[k],
+                             std::to_string(k + 1), settings.dark, 16));
+  return marks;
 }
 
 } // namespace pcl_mrf_planes::viewer

@@ -2,6 +2,8 @@
 #include "panel_image.h"
 
 #include "label_colours.h"
+#include "pictures.h"
+#include "point_colours.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +33,30 @@ double brightness(const ViewFrame& frame, std::size_t i, bool by_colour, double 
   return 1.0 - 0.85 * static_cast<double>(frame.points.depth(i)) / far;
 }
 
+io::ColourImage colourAndDepth(const ViewFrame& frame)
+{
+  const OrganizedPoints& points = frame.points;
+  io::ColourImage image(points.width, 2 * points.height);
+  const apps::Picture colour = apps::sight(points, frame.colours);
+  std::copy(colour.pixels.begin(), colour.pixels.end(), image.pixels.begin());
+  ViewSettings by_depth;
+  by_depth.mode = ColourMode::DEPTH;
+  SegmentedView no_planes;
+  no_planes.labels.assign(points.size(), 0);
+  const PointColours depth = colourPoints(frame, no_planes, {}, by_depth, {});
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points.valid[i] != 0)
+      image.pixels[points.size() + i] = depth.colours[i];
+  return image;
+}
+
 } // namespace
 
 io::ColourImage panelImage(const ViewFrame& frame, const SegmentedView& view,
                            Panel panel, const std::vector<std::uint32_t>& classes)
 {
+  if (panel == Panel::COLOUR_AND_DEPTH)
+    return colourAndDepth(frame);
   const bool by_colour = panel == Panel::LABELS_ON_COLOUR && !frame.colours.empty();
   const double far = farthest(frame.points);
   io::ColourImage image(frame.points.width, frame.points.height);

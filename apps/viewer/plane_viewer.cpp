@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** \file Viewer: shows clouds segmented into planes, in a window or as pictures. */
+#include "app_main.h"
 #include "display.h"
-#include "option_values.h"
 #include "viewer_options.h"
 #include "viewer_window.h"
 
-#include <pcl/console/print.h>
-
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <iostream>
-#include <new>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace {
 
@@ -21,19 +19,29 @@ using namespace pcl_mrf_planes;
 using namespace pcl_mrf_planes::viewer;
 
 constexpr const char* PROGRAM = "pcl_mrf_plane_viewer";
-constexpr int FAILURE = 1;
-constexpr int WRONG_USAGE = 2;
 
+void createFolder(const std::string& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder, error))
+    throw std::runtime_error("cannot create the folder '" + folder +
+                             "'; name another one for --film");
+}
+
+/// A frame that cannot be read has no picture; the numbers are those of the frames.
 void writeFilm(Session& session, ViewerWindow& window, const std::string& folder)
 {
-  std::filesystem::create_directories(folder);
+  createFolder(folder);
   const bool steps = session.settings.film;
   const std::size_t count = steps ? session.film().steps.size() : session.frameCount();
   for (std::size_t k = 0; k < count; ++k) {
     if (steps)
       session.settings.film_step = static_cast<int>(k);
-    else if (k > 0 && !session.showFrame(k))
+    else if (k > 0 && !session.showFrame(k)) {
       std::cerr << PROGRAM << ": " << session.message() << '\n';
+      continue;
+    }
     window.draw();
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "frame_%05zu.png", k);
@@ -41,7 +49,7 @@ void writeFilm(Session& session, ViewerWindow& window, const std::string& folder
   }
 }
 
-int show(const ViewerOptions& options)
+void show(const ViewerOptions& options)
 {
   io::FrameList list = io::listFrames(options.inputs, options.read);
   Session session(std::move(list.frames), options.parameters, options.profile);
@@ -59,34 +67,20 @@ int show(const ViewerOptions& options)
     writeFilm(session, window, options.film);
   if (!options.window.off_screen)
     window.run();
-  return 0;
 }
 
 } // namespace
 
 int main(int argc, char* argv[])
 {
-  // What PCL would print is said by the messages below, with what to do about it.
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  try {
+  return apps::runApp({PROGRAM, "cut the cloud into parts"}, [&] {
     const ViewerOptions options = parseViewerOptions(argc, argv);
     if (options.help)
       std::cout << viewerHelp();
     else if (options.version)
       std::cout << PROGRAM << ' ' << PCL_MRF_PLANES_VERSION << '\n';
     else
-      return show(options);
+      show(options);
     return 0;
-  }
-  catch (const apps::UsageError& error) {
-    std::cerr << PROGRAM << ": " << error.what() << '\n';
-    return WRONG_USAGE;
-  }
-  catch (const std::bad_alloc&) {
-    std::cerr << PROGRAM << ": not enough memory; cut the cloud into parts\n";
-  }
-  catch (const std::exception& error) {
-    std::cerr << PROGRAM << ": " << error.what() << '\n';
-  }
-  return FAILURE;
+  });
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace pcl_mrf_planes::viewer {
@@ -36,13 +35,6 @@ Range rangeOf(std::vector<double> values)
                                            static_cast<double>(values.size() - 1))];
   };
   return {at(0.02), std::max(at(0.98), at(0.02) + 1e-9)};
-}
-
-std::string number(const char* format, double value)
-{
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
 }
 
 double tileError(const TileCells& cells, std::size_t i)
@@ -76,31 +68,31 @@ std::vector<double> valuesOf(const ViewFrame& frame, const SegmentedView& view,
   return values;
 }
 
-std::string legendOf(ColourMode mode, const Range& range)
+ColourScale scaleOf(ColourMode mode, const std::vector<double>& values)
 {
   if (mode == ColourMode::CONFIDENCE)
-    return "colour: confidence, 0 dark to 1 bright, grey none";
-  const bool metres = mode == ColourMode::DEPTH;
-  const char* format = metres ? "%.2f" : "%.1f";
-  const char* unit = metres ? " m" : " mm";
-  const char* what = metres                         ? "depth"
-                     : mode == ColourMode::DISTANCE ? "distance to the plane"
-                                                    : "rms distance of the tile";
-  return std::string("colour: ") + what + ", " + number(format, range.low) +
-         " dark to " + number(format, range.high) + unit + " bright, grey none";
+    return {"confidence", 0.0, 1.0};
+  const Range range = rangeOf(values);
+  const char* quantity = mode == ColourMode::DEPTH ? "depth, m"
+                         : mode == ColourMode::DISTANCE
+                             ? "distance to the plane, mm"
+                             : "rms distance of the tile, mm";
+  return {quantity, range.low, range.high};
 }
 
 void colourByValue(const ViewFrame& frame, const SegmentedView& view,
-                   const TileCells& tiles, ColourMode mode, PointColours& result)
+                   const TileCells& tiles, ColourMode mode,
+                   const std::optional<ColourScale>& same_scale, PointColours& result)
 {
   const std::vector<double> values = valuesOf(frame, view, tiles, mode);
-  const Range range = mode == ColourMode::CONFIDENCE ? Range{} : rangeOf(values);
+  const ColourScale scale = same_scale ? *same_scale : scaleOf(mode, values);
   for (std::size_t i = 0; i < values.size(); ++i)
     result.colours[i] =
         std::isfinite(values[i])
-            ? rampColour((values[i] - range.low) / (range.high - range.low))
+            ? rampColour((values[i] - scale.low) / (scale.high - scale.low))
             : NO_VALUE;
-  result.legend = legendOf(mode, range);
+  result.scale = scale;
+  result.legend = "colour: " + scale.quantity + "; grey none";
 }
 
 void colourByPlane(const SegmentedView& view, const std::vector<std::uint32_t>& classes,
@@ -118,14 +110,15 @@ void colourByPlane(const SegmentedView& view, const std::vector<std::uint32_t>& 
 void applySelection(const ViewFrame& frame, const SegmentedView& view,
                     const ViewSettings& settings, PointColours& result)
 {
+  // Towards the background, whichever it is.
+  const double faded = settings.dark ? 0.0 : (1.0 - DIMMED) * 255.0;
   for (std::size_t i = 0; i < view.labels.size(); ++i) {
     const std::uint16_t label = view.labels[i];
     const bool is_selected = settings.selected != 0 && label == settings.selected;
-    result.shown[i] = frame.points.valid[i] != 0 && settings.hidden.count(label) == 0 &&
-                      (!settings.isolate || is_selected);
+    result.shown[i] = frame.points.valid[i] != 0 && settings.shows(label);
     if (settings.selected != 0 && !is_selected)
       for (std::uint8_t& channel : result.colours[i])
-        channel = static_cast<std::uint8_t>(DIMMED * channel);
+        channel = static_cast<std::uint8_t>(DIMMED * channel + faded);
   }
 }
 
@@ -151,7 +144,8 @@ io::Colour rampColour(double share)
 
 PointColours colourPoints(const ViewFrame& frame, const SegmentedView& view,
                           const TileCells& tiles, const ViewSettings& settings,
-                          const std::vector<std::uint32_t>& classes)
+                          const std::vector<std::uint32_t>& classes,
+                          const std::optional<ColourScale>& same_scale)
 {
   PointColours result;
   result.colours.assign(frame.points.size(), NO_VALUE);
@@ -166,7 +160,7 @@ PointColours colourPoints(const ViewFrame& frame, const SegmentedView& view,
   else if (settings.mode == ColourMode::OWN)
     result.legend = "colour: this cloud has none of its own";
   else
-    colourByValue(frame, view, tiles, settings.mode, result);
+    colourByValue(frame, view, tiles, settings.mode, same_scale, result);
   applySelection(frame, view, settings, result);
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "screen.h"
 
+#include "marks.h"
 #include "output_file.h"
 
 #include <pcl/visualization/pcl_visualizer.h>
@@ -21,6 +22,21 @@ namespace {
 
 constexpr double DEGREES = 180.0 / 3.14159265358979323846;
 constexpr double MARGIN = 1.08; // around what the sensor saw
+constexpr int LAYERS = 4;
+constexpr double PANEL_RIGHT = 0.985; // shares of the window
+constexpr double PANEL_BOTTOM = 0.03;
+constexpr double COLUMN_LEFT = 0.675;
+constexpr double STRIP_LEFT = 0.42; // the text at the lower left ends before it
+constexpr double RIM = 1.02;        // around the image
+
+/// A layer is drawn over those below it, whatever their depth.
+int layerOf(Screen::Part part)
+{
+  return part <= Screen::COLUMN        ? 0
+         : part <= Screen::RIGHT_MARKS ? 1
+         : part < Screen::OVERLAY      ? 2
+                                       : 3;
+}
 
 } // namespace
 
@@ -32,21 +48,24 @@ Screen::Screen(int width, int height, bool off_screen)
   window()->SetMultiSamples(0);
   // PCL's own renderer would draw over the whole window.
   window()->GetRenderers()->RemoveAllItems();
-  window()->SetNumberOfLayers(3);
+  window()->SetNumberOfLayers(LAYERS);
   for (int part = 0; part < PARTS; ++part) {
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
-    renderer->SetLayer(part == OVERLAY ? 2 : part >= IMAGE ? 1 : 0);
+    renderer->SetLayer(layerOf(static_cast<Part>(part)));
     renderer->SetInteractive(part <= RIGHT ? 1 : 0);
     if (part == IMAGE || part == CHART) // plates of their own
       renderer->PreserveColorBufferOff();
     renderers_[static_cast<std::size_t>(part)] = renderer;
   }
-  include(LEFT, true);
-  include(OVERLAY, true);
-  renderers_[RIGHT]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
-  renderers_[IMAGE]->SetViewport(0.66, 0.03, 0.985, 0.37);
-  renderers_[CHART]->SetViewport(0.60, 0.55, 0.985, 0.97);
-  arrange(false, true);
+  for (const Part part : {LEFT, LEFT_MARKS, OVERLAY})
+    include(part, true);
+  for (const Part part : {RIGHT, LEFT_MARKS, RIGHT_MARKS})
+    renderers_[part]->SetActiveCamera(renderers_[LEFT]->GetActiveCamera());
+  keepMarksApart(renderers_[LEFT_MARKS]);
+  keepMarksApart(renderers_[RIGHT_MARKS]);
+  renderers_[COLUMN]->SetViewport(COLUMN_LEFT - 0.01, 0.0, 1.0, 1.0);
+  renderers_[CHART]->SetViewport(COLUMN_LEFT, 0.50, PANEL_RIGHT, 0.95);
+  arrange({});
 }
 
 Screen::~Screen() = default;
@@ -77,42 +96,82 @@ void Screen::show(Part part, const Props& props)
     renderer->AddViewProp(prop);
   if (part == IMAGE || part == CHART)
     include(part, !props.empty());
-  if (part == IMAGE && !props.empty()) {
-    renderer->GetActiveCamera()->ParallelProjectionOn();
-    renderer->ResetCamera();
-    const double* bounds = props.front()->GetBounds();
-    const int* size = renderer->GetSize();
-    const double aspect = 1.0 * size[0] / std::max(1, size[1]);
-    renderer->GetActiveCamera()->SetParallelScale(
-        0.51 * std::max(bounds[3] - bounds[2], (bounds[1] - bounds[0]) / aspect));
-  }
+  if (part == IMAGE && !props.empty())
+    fitImage(props.front()->GetBounds());
 }
 
-void Screen::arrange(bool side_by_side, bool dark)
+void Screen::fitImage(const double* bounds)
 {
-  side_by_side_ = side_by_side;
-  renderers_[LEFT]->SetViewport(0.0, 0.0, side_by_side ? 0.5 : 1.0, 1.0);
-  renderers_[RIGHT]->SetViewport(0.5, 0.0, 1.0, 1.0);
-  include(RIGHT, side_by_side);
-  const double shade = dark ? 0.08 : 1.0;
-  renderers_[LEFT]->SetBackground(shade, shade, shade);
-  renderers_[RIGHT]->SetBackground(shade, shade, shade);
-  const double plate = dark ? 0.0 : 0.93;
+  const double across = std::max(1.0, bounds[1] - bounds[0]);
+  const double along = std::max(1.0, bounds[3] - bounds[2]);
+  const double aspect = across / along;
+  const bool is_in_column =
+      belongsInColumn(static_cast<int>(across), static_cast<int>(along));
+  const double widest = PANEL_RIGHT - (is_in_column ? COLUMN_LEFT : STRIP_LEFT);
+  const double highest = !is_in_column || layout_.chart ? 0.42 : 0.94;
+  const int* size = window()->GetSize();
+  const double window_aspect = 1.0 * size[0] / std::max(1, size[1]);
+  const double width = std::min(widest, highest * aspect / window_aspect);
+  const double height = width * window_aspect / aspect;
+  const double bottom =
+      is_in_column && !layout_.chart ? 0.5 * (1.0 - height) : PANEL_BOTTOM;
+  const double right =
+      is_in_column ? PANEL_RIGHT - 0.5 * (widest - width) : PANEL_RIGHT;
+  renderers_[IMAGE]->SetViewport(right - width, bottom, right, bottom + height);
+  vtkCamera* camera = renderers_[IMAGE]->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  renderers_[IMAGE]->ResetCamera();
+  camera->SetParallelScale(0.5 * RIM * along);
+}
+
+bool Screen::belongsInColumn(int width, int height)
+{
+  return 2 * width <= 5 * height;
+}
+
+double Screen::viewEnd() const
+{
+  return layout_.column ? COLUMN_LEFT - 0.01 : 1.0;
+}
+
+void Screen::arrange(const Layout& layout)
+{
+  layout_ = layout;
+  const double end = viewEnd();
+  const double middle = layout.side_by_side ? 0.5 * end : end;
+  for (const Part part : {LEFT, LEFT_MARKS})
+    renderers_[part]->SetViewport(0.0, 0.0, middle, 1.0);
+  for (const Part part : {RIGHT, RIGHT_MARKS}) {
+    renderers_[part]->SetViewport(0.5 * end, 0.0, end, 1.0);
+    include(part, layout.side_by_side);
+  }
+  include(COLUMN, layout.column);
+  const double shade = layout.dark ? 0.08 : 1.0;
+  for (const Part part : {LEFT, RIGHT, COLUMN})
+    renderers_[part]->SetBackground(shade, shade, shade);
+  const double plate = layout.dark ? 0.0 : 0.93;
   renderers_[IMAGE]->SetBackground(plate, plate, plate);
   renderers_[CHART]->SetBackground(plate, plate, plate);
+  fitAngle();
+}
+
+void Screen::fitAngle()
+{
+  const int* size = window()->GetSize();
+  const double share = viewEnd() * (layout_.side_by_side ? 0.5 : 1.0);
+  const double aspect = share * size[0] / std::max(1.0, 1.0 * size[1]);
+  const double tangent = MARGIN * std::max(view_.along, view_.across / aspect);
+  renderers_[LEFT]->GetActiveCamera()->SetViewAngle(2.0 * DEGREES * std::atan(tangent));
 }
 
 void Screen::look(const SensorView& view)
 {
+  view_ = view;
   vtkCamera* camera = renderers_[LEFT]->GetActiveCamera();
   camera->SetPosition(view.position.data());
   camera->SetFocalPoint(view.focus.data());
   camera->SetViewUp(view.up.data());
-  const int* size = window()->GetSize();
-  const double aspect =
-      (side_by_side_ ? 0.5 : 1.0) * size[0] / std::max(1.0, 1.0 * size[1]);
-  const double tangent = MARGIN * std::max(view.along, view.across / aspect);
-  camera->SetViewAngle(2.0 * DEGREES * std::atan(tangent));
+  fitAngle();
   renderers_[LEFT]->ResetCameraClippingRange();
 }
 

@@ -18,14 +18,33 @@ class PCLVisualizer;
 
 namespace pcl_mrf_planes::viewer {
 
-/** \brief The window's parts: two views with one camera, image panel, chart, and on top of
- * all a layer for text and sliders. Owns the PCLVisualizer. */
+/** \brief What has a place in the window. */
+struct Layout {
+  bool side_by_side = false; ///< two views
+  bool column = false;       ///< on the right, for image and chart
+  bool chart = false;        ///< in the upper half of the column
+  bool dark = true;          ///< behind the views
+};
+
+/** \brief The window's parts: two views with one camera, marks over each that nothing of the
+ * scene hides, image panel, chart, and on top of all a layer for text and sliders. Owns the
+ * PCLVisualizer. */
 class Screen {
 public:
   Screen(int width, int height, bool off_screen);
   ~Screen();
 
-  enum Part { LEFT, RIGHT, IMAGE, CHART, OVERLAY, PARTS };
+  enum Part {
+    LEFT,
+    RIGHT,
+    COLUMN,
+    LEFT_MARKS,
+    RIGHT_MARKS,
+    IMAGE,
+    CHART,
+    OVERLAY,
+    PARTS
+  };
 
   vtkRenderer* renderer(Part part) { return renderers_[part]; }
   vtkRenderWindow* window();
@@ -33,19 +52,30 @@ public:
   /** \brief Replace what a part shows. */
   void show(Part part, const Props& props);
 
-  /** \brief Whether two views stand side by side, and the colour behind them. */
-  void arrange(bool side_by_side, bool dark);
+  /** \brief Place the parts; the angle of the views stays such that all fits. */
+  void arrange(const Layout& layout);
 
-  /** \brief Look from there; the angle is such that all fits. */
+  /** \brief Look from there. */
   void look(const SensorView& view);
+
+  /** \brief Where the views end, and the column begins if there is one; in shares of the
+   * width. */
+  double viewEnd() const;
+
+  /** \brief Whether an image of that shape has its place in the column; a strip lies across
+   * the lower end of the view. */
+  static bool belongsInColumn(int width, int height);
 
 private:
   void include(Part part, bool wanted);
+  void fitImage(const double* bounds);
+  void fitAngle();
 
   pcl::shared_ptr<pcl::visualization::PCLVisualizer> visualizer_;
   std::array<vtkSmartPointer<vtkRenderer>, PARTS> renderers_;
   std::array<Props, PARTS> shown_;
-  bool side_by_side_ = false;
+  Layout layout_;
+  SensorView view_;
 };
 
 /** \brief The pixels of a window as a PNG, whole or not at all.

@@ -98,6 +98,11 @@ SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
     segmentation->computeConfidence(confidence);
     return confidence;
   });
+  view.creases = once([segmentation] {
+    std::vector<PlaneCrease> creases;
+    segmentation->computeCreases(creases);
+    return creases;
+  });
   view.deviations = once([segmentation] { return deviationsOf(*segmentation); });
   return view;
 }

@@ -4,6 +4,7 @@
 #include "view_frame.h"
 
 #include <pcl_mrf_planes/parameters.h>
+#include <pcl_mrf_planes/plane_creases.h>
 
 #include <Eigen/Core>
 
@@ -43,6 +44,8 @@ struct SegmentedView {
   std::function<std::vector<float>()> confidence;
   /// How well every plane is known, worked out when it is asked for; may be empty.
   std::function<std::vector<PlaneDeviations>()> deviations;
+  /// Where planes meet, in the frame of the cloud; as above.
+  std::function<std::vector<PlaneCrease>()> creases;
 
   double totalMs() const;
 };

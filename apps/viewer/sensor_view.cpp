@@ -19,6 +19,57 @@ double quantile(std::vector<double>& values, double share)
   return values[static_cast<std::size_t>(rank)];
 }
 
+Eigen::Vector3d directionOf(const OrganizedPoints& points, int x, int y)
+{
+  const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(points.width) +
+                 static_cast<std::size_t>(x);
+  if (points.valid[i] == 0)
+    return Eigen::Vector3d::Zero();
+  return Eigen::Vector3f(points.x[i], points.y[i], points.z[i])
+      .cast<double>()
+      .normalized();
+}
+
+/// The axis of a scan: columns of its image run down along it. What they have across it
+/// goes to all sides.
+Eigen::Vector3d axisOf(const OrganizedPoints& points)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int y = 1; y < points.height; ++y)
+    for (int x = 0; x < points.width; ++x) {
+      const Eigen::Vector3d above = directionOf(points, x, y - 1);
+      const Eigen::Vector3d below = directionOf(points, x, y);
+      if (!above.isZero() && !below.isZero())
+        sum += above - below;
+    }
+  return sum.norm() > 1e-9 ? Eigen::Vector3d(sum.normalized())
+                           : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+}
+
+/// Where the middle of the image looks, across the axis.
+Eigen::Vector3d forwardOf(const OrganizedPoints& points, const Eigen::Vector3d& up)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int y = 0; y < points.height; ++y)
+    for (int x = points.width * 3 / 8; x < points.width * 5 / 8; ++x)
+      sum += directionOf(points, x, y);
+  const Eigen::Vector3d across = sum - sum.dot(up) * up;
+  return across.norm() > 1e-9 ? Eigen::Vector3d(across.normalized())
+                              : up.unitOrthogonal();
+}
+
+/// Over the shoulder of the sensor, far enough back to see what lies around it.
+SensorView scanView(const OrganizedPoints& points, double reach)
+{
+  constexpr double BACK = 1.3; // in reaches
+  constexpr double UP = 1.1;
+  SensorView view;
+  view.up = axisOf(points);
+  view.focus = Eigen::Vector3d::Zero();
+  view.position = reach * (UP * view.up - BACK * forwardOf(points, view.up));
+  return view;
+}
+
 } // namespace
 
 SensorView sensorView(const ViewFrame& frame)
@@ -38,14 +89,15 @@ SensorView sensorView(const ViewFrame& frame)
     turn.setIdentity();
   turn.normalize();
   const Eigen::Vector3d origin = frame.cloud->sensor_origin_.head<3>().cast<double>();
-  const double depth = quantile(depths, 0.5);
-  SensorView view;
   if (points.depth_measure == DepthMeasure::RANGE) {
-    view.focus = origin;
-    view.position = origin + turn * Eigen::Vector3d(-2.0, 0.0, 1.5) * depth;
-    view.up = turn * Eigen::Vector3d::UnitZ();
+    SensorView view = scanView(points, quantile(depths, 0.75));
+    view.focus = origin + turn * view.focus;
+    view.position = origin + turn * view.position;
+    view.up = turn * view.up;
     return view;
   }
+  const double depth = quantile(depths, 0.5);
+  SensorView view;
   view.focus = origin + turn * Eigen::Vector3d(0.0, 0.0, depth);
   view.position = origin - turn * Eigen::Vector3d(0.0, 0.0, 0.05 * depth);
   view.up = turn * -Eigen::Vector3d::UnitY();

@@ -3,7 +3,6 @@
 
 #include "parameter_file.h"
 #include "parameter_options.h"
-#include "peer_segmentation.h"
 
 #include <algorithm>
 #include <exception>
@@ -21,25 +20,6 @@ template <typename Enum>
 Enum following(Enum value, Enum last)
 {
   return value == last ? Enum{} : static_cast<Enum>(static_cast<int>(value) + 1);
-}
-
-std::string profileName(Profile profile)
-{
-  return profile == Profile::PAPER  ? "paper"
-         : profile == Profile::FAST ? "fast"
-                                    : "default";
-}
-
-std::string nameOf(Profile profile)
-{
-  return "profile " + profileName(profile);
-}
-
-Profile profileOf(Comparison comparison)
-{
-  return comparison == Comparison::PAPER  ? Profile::PAPER
-         : comparison == Comparison::FAST ? Profile::FAST
-                                          : Profile::DEFAULT;
 }
 
 /// The track takes any frame that stays: that of the cloud does.
@@ -96,6 +76,8 @@ bool Session::performView(Action action)
     return toggle(settings.contours);
   case Action::NORMALS:
     return toggle(settings.normals);
+  case Action::CREASES:
+    return toggle(settings.creases);
   case Action::SLIDERS:
     return toggle(settings.sliders);
   case Action::FACTS:
@@ -107,11 +89,13 @@ bool Session::performView(Action action)
     updateStages();
     return true;
   case Action::PANEL:
-    settings.panel = following(settings.panel, Panel::LABELS_ON_DEPTH);
+    settings.panel = following(settings.panel, Panel::COLOUR_AND_DEPTH);
     return true;
   case Action::COMPARE:
     settings.comparison = following(settings.comparison, Comparison::PCL);
-    compare();
+    ahead_.forget();
+    other_ = segmentOther(frame_, settings.comparison);
+    colourOther();
     return true;
   case Action::FILM:
     toggle(settings.film);
@@ -172,6 +156,8 @@ bool Session::performSequence(Action action)
   case Action::PLAY:
     playing_ = !playing_ && (frames_.size() > 1 || settings.film);
     waited_ = 0.0;
+    if (playing_ && !settings.film)
+      lookAhead((index_ + 1) % frames_.size());
     if (!playing_ && frames_.size() == 1 && !settings.film)
       message_ = "there is one frame only; open a folder to play";
     return true;
@@ -200,9 +186,11 @@ bool Session::advance(double seconds)
   if (!playing_)
     return false;
   waited_ += seconds;
-  if (waited_ < 1.0 / speed_)
+  const double period = 1.0 / speed_;
+  if (waited_ < period)
     return false;
-  waited_ = 0.0; // frames that could not be shown in time are not caught up with
+  // Frames that could not be shown in time are not caught up with.
+  waited_ = std::min(waited_ - period, period);
   if (settings.film) {
     const int count = static_cast<int>(film_.steps.size());
     playing_ = loop_ || settings.film_step + 1 < count;
@@ -231,12 +219,34 @@ void Session::step(int by)
 
 bool Session::showFrame(std::size_t index)
 {
+  const std::size_t count = frames_.size();
+  const bool back = count > 2 && (index + 1) % count == index_;
+  const bool shown = loadFrame(index);
+  lookAhead((index + (back ? count - 1 : 1)) % count);
+  return shown;
+}
+
+void Session::lookAhead(std::size_t index)
+{
+  if (index == index_ || ahead_.isFor(index))
+    return;
+  // Copies: the session may move and change meanwhile.
+  ahead_.begin(index, [source = frames_.at(index), wanted = choice()] {
+    return segmentFrame(source, wanted);
+  });
+}
+
+bool Session::loadFrame(std::size_t index)
+{
   try {
-    ViewFrame read = readFrame(frames_.at(index));
-    frame_ = std::move(read);
+    SegmentedFrame loaded =
+        ahead_.isFor(index) ? ahead_.take() : segmentFrame(frames_.at(index), choice());
+    frame_ = std::move(loaded.frame);
+    main_ = std::move(loaded.main);
+    other_ = std::move(loaded.other);
     index_ = index;
     forgetPlanes();
-    segment();
+    colour();
     return true;
   }
   catch (const std::exception& error) {
@@ -262,6 +272,7 @@ void Session::setParameters(const Parameters& parameters)
     return;
   }
   parameters_ = parameters;
+  ahead_.forget();
   const std::vector<std::uint32_t> before = main_colours_;
   segment();
   keepPlanes(before);
@@ -285,27 +296,29 @@ void Session::nextProfile()
 {
   profile_ = following(profile_, Profile::PAPER);
   setParameters(Parameters::fromProfile(profile_));
-  message_ = nameOf(profile_);
+  message_ = "profile " + profileName(profile_);
+}
+
+Choice Session::choice() const
+{
+  return {parameters_, profile_, settings.comparison};
 }
 
 void Session::segment()
 {
-  main_ = segmentView(frame_, parameters_, nameOf(profile_));
+  main_ = segmentMain(frame_, choice());
+  colour();
+}
+
+void Session::colour()
+{
   main_colours_ = track_.update(sensorPlanes(main_), main_.labels);
-  compare();
+  colourOther();
   updateStages();
 }
 
-void Session::compare()
+void Session::colourOther()
 {
-  if (!compares())
-    return;
-  if (settings.comparison == Comparison::PCL)
-    other_ = segmentByPcl(frame_);
-  else {
-    const Profile profile = profileOf(settings.comparison);
-    other_ = segmentView(frame_, Parameters::fromProfile(profile), nameOf(profile));
-  }
   // The same colours on both sides where the planes are the same.
   apps::ColourTrack own = track_;
   other_colours_ = own.update(sensorPlanes(other_), other_.labels);

@@ -3,6 +3,7 @@
 
 #include "actions.h"
 #include "algorithm_film.h"
+#include "frame_ahead.h"
 #include "parameter_sliders.h"
 #include "segmented_view.h"
 #include "view_settings.h"
@@ -31,7 +32,8 @@ public:
   /** \brief Play on: \a seconds have passed. \return true if another frame is seen */
   bool advance(double seconds);
 
-  /** \brief Show frame \a index. \return false with a message if it cannot be read */
+  /** \brief Show frame \a index, and begin to work on the one that comes next, in the
+   * direction of the step, in a thread of its own. \return false with a message if it cannot be read */
   bool showFrame(std::size_t index);
 
   /** \brief Pick the point \a index of the cloud; -1: none. */
@@ -74,8 +76,12 @@ private:
   bool performPlane(Action action);
   bool performSequence(Action action);
   void nextProfile();
+  Choice choice() const;
   void segment();
-  void compare();
+  void colour();
+  void colourOther();
+  bool loadFrame(std::size_t index);
+  void lookAhead(std::size_t index);
   void updateStages();
   void step(int by);
   void forgetPlanes();
@@ -91,6 +97,7 @@ private:
   Profile profile_;
   SegmentedView main_;
   SegmentedView other_;
+  FrameAhead ahead_;
   apps::ColourTrack track_;
   std::vector<std::uint32_t> main_colours_;
   std::vector<std::uint32_t> other_colours_;

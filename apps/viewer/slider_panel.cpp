@@ -32,8 +32,12 @@ constexpr double SPACING = 0.068;
 class DragCommand : public vtkCommand {
 public:
   static DragCommand* New() { return new DragCommand; }
-  void Execute(vtkObject* caller, unsigned long, void*) override
+  void Execute(vtkObject* caller, unsigned long event, void*) override
   {
+    if (event == vtkCommand::EndInteractionEvent) {
+      released();
+      return;
+    }
     auto* widget = static_cast<vtkSliderWidget*>(caller);
     moved(
         index,
@@ -41,6 +45,7 @@ public:
   }
   std::size_t index = 0;
   SliderPanel::Moved moved;
+  SliderPanel::Released released;
 };
 
 void dress(vtkSliderRepresentation2D* look, bool dark)
@@ -82,6 +87,7 @@ struct SliderPanel::Parts {
   vtkRenderWindowInteractor* interactor;
   vtkRenderer* renderer;
   Moved moved;
+  Released released;
   std::vector<vtkSmartPointer<vtkSliderWidget>> widgets;
   std::optional<Method> method; ///< that the widgets are for
 
@@ -121,13 +127,15 @@ void SliderPanel::Parts::addWidget(const ParameterSlider& slider, std::size_t in
   vtkNew<DragCommand> command;
   command->index = index;
   command->moved = moved;
+  command->released = released;
   widget->AddObserver(vtkCommand::InteractionEvent, command);
+  widget->AddObserver(vtkCommand::EndInteractionEvent, command);
   widgets.push_back(widget);
 }
 
 SliderPanel::SliderPanel(vtkRenderWindowInteractor* interactor, vtkRenderer* renderer,
-                         Moved moved)
-: parts_(new Parts{interactor, renderer, std::move(moved), {}, {}})
+                         Moved moved, Released released)
+: parts_(new Parts{interactor, renderer, std::move(moved), std::move(released), {}, {}})
 {}
 
 SliderPanel::~SliderPanel() = default;

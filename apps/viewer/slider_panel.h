@@ -15,11 +15,13 @@ namespace pcl_mrf_planes::viewer {
 class SliderPanel {
 public:
   using Moved = std::function<void(std::size_t slider, double value)>;
+  using Released = std::function<void()>;
 
   /** \param[in] renderer that they are drawn in, the whole window
-   * \param[in] moved called while a slider is dragged */
-  SliderPanel(vtkRenderWindowInteractor* interactor, vtkRenderer* renderer,
-              Moved moved);
+   * \param[in] moved called while a slider is dragged; the window is drawn after it
+   * \param[in] released called when it is let go */
+  SliderPanel(vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, Moved moved,
+              Released released);
   ~SliderPanel();
 
   /** \brief Show the values of the parameters, or nothing. */

@@ -13,7 +13,7 @@ enum class ColourMode { PLANE, DEPTH, OWN, CONFIDENCE, DISTANCE, TILE_ERROR };
 enum class Comparison { OFF, DEFAULT, FAST, PAPER, PCL };
 
 /** \brief What the 2-D panel shows. */
-enum class Panel { OFF, LABELS_ON_COLOUR, LABELS_ON_DEPTH };
+enum class Panel { OFF, LABELS_ON_COLOUR, LABELS_ON_DEPTH, COLOUR_AND_DEPTH };
 
 /** \brief How the result is shown. */
 struct ViewSettings {
@@ -22,6 +22,7 @@ struct ViewSettings {
   Panel panel = Panel::OFF;
   bool contours = false;
   bool normals = false;
+  bool creases = false;
   bool tiles = false;
   bool sliders = false;
   bool help = false;
@@ -33,6 +34,12 @@ struct ViewSettings {
   long picked_point = -1;     ///< index of the picked point, -1 none
   bool isolate = false;       ///< only the selected plane is shown
   std::set<std::uint16_t> hidden;
+
+  /** \brief Whether anything of a plane is to be seen; label 0: of no plane. */
+  bool shows(std::uint16_t label) const
+  {
+    return hidden.count(label) == 0 && (!isolate || (label != 0 && label == selected));
+  }
 };
 
 } // namespace pcl_mrf_planes::viewer

@@ -26,9 +26,17 @@ namespace pcl_mrf_planes::viewer {
 
 namespace {
 
-constexpr std::chrono::milliseconds TICK(10); // between looks for events
-constexpr double PICK_REACH = 4.0;            // pixels
+constexpr std::chrono::milliseconds TICK(4); // between looks for events
+constexpr double DRAG_SECONDS = 0.03; // that drawing may take while a slider is dragged
+constexpr double PICK_REACH = 4.0;    // pixels
+constexpr const char* MOUSE_HELP =
+    "mouse  left turns, a click picks a point, middle moves, wheel zooms";
 using Clock = std::chrono::steady_clock;
+
+void append(const Props& more, Props& props)
+{
+  props.insert(props.end(), more.begin(), more.end());
+}
 
 vtkSmartPointer<vtkRenderWindowInteractor> makeInteractor(vtkRenderWindow* window,
                                                           bool off_screen)
@@ -54,6 +62,8 @@ struct ViewerWindow::Parts {
   PointColours left;
   Clock::time_point last = Clock::now();
   int pictures = 0;
+  double full_seconds = 0.0; ///< that drawing all points took last
+  int stride = 1;            ///< of the points that are drawn
   bool done = false;
 
   Parts(Session& s, const WindowOptions& o)
@@ -65,10 +75,14 @@ struct ViewerWindow::Parts {
 
   Props view(const SegmentedView& result, const std::vector<std::uint32_t>& classes,
              const ViewSettings& settings, PointColours& colours) const;
+  static Props marks(const SegmentedView& result, const ViewSettings& settings);
+  Layout layout() const;
+  static SegmentedView stageOf(const FilmStep& step);
   void drawLeft();
   void drawRight();
   void drawPanels();
   Props texts() const;
+  void prepare(bool coarse);
   void draw();
   void act(Action action);
   void click(int x, int y);
@@ -82,28 +96,62 @@ Props ViewerWindow::Parts::view(const SegmentedView& result,
                                 PointColours& colours) const
 {
   const ViewFrame& frame = session.frame();
-  colours = colourPoints(frame, result, session.tiles(), settings, classes);
-  Props props = {cloudLayer(frame, colours)};
+  colours =
+      colourPoints(frame, result, session.tiles(), settings, classes, colours.scale);
+  Props props = {cloudLayer(frame, colours, stride)};
   if (settings.contours)
-    props.push_back(contourLayer(frame, contoursOf(frame, result), settings.dark));
+    props.push_back(contourLayer(frame, contoursOf(frame, result), settings));
   if (settings.normals)
-    for (const auto& prop : normalLayer(result, settings.dark))
-      props.push_back(prop);
+    props.push_back(normalLayer(result, settings));
+  if (settings.creases && result.creases)
+    append(creaseLayer(result.creases(), settings), props);
   return props;
+}
+
+Props ViewerWindow::Parts::marks(const SegmentedView& result,
+                                 const ViewSettings& settings)
+{
+  Props props;
+  if (settings.normals)
+    append(numberMarks(result, settings), props);
+  if (settings.creases && result.creases)
+    append(angleMarks(result.creases(), settings), props);
+  return props;
+}
+
+Layout ViewerWindow::Parts::layout() const
+{
+  const OrganizedPoints& points = session.frame().points;
+  Layout layout;
+  layout.side_by_side = session.compares();
+  layout.chart = session.filmStep() != nullptr && !session.film().energy.empty();
+  layout.column =
+      layout.chart || (session.settings.panel != Panel::OFF &&
+                       Screen::belongsInColumn(points.width, points.height));
+  layout.dark = session.settings.dark;
+  return layout;
+}
+
+SegmentedView ViewerWindow::Parts::stageOf(const FilmStep& step)
+{
+  SegmentedView stage;
+  stage.labels = step.labels;
+  stage.planes.resize(step.classes.size());
+  return stage;
 }
 
 void ViewerWindow::Parts::drawLeft()
 {
+  left.scale.reset();
   ViewSettings settings = session.settings;
   if (const FilmStep* step = session.filmStep()) {
-    SegmentedView stage;
-    stage.labels = step->labels;
-    stage.planes.resize(step->classes.size());
+    const SegmentedView stage = stageOf(*step);
     settings.mode = ColourMode::PLANE;
     settings.normals = settings.isolate = false;
     settings.selected = 0;
     settings.hidden.clear();
     screen.show(Screen::LEFT, view(stage, step->classes, settings, left));
+    screen.show(Screen::LEFT_MARKS, {});
     return;
   }
   Props props = view(session.main(), session.mainColours(), settings, left);
@@ -113,17 +161,18 @@ void ViewerWindow::Parts::drawLeft()
     for (io::Colour& colour : dim.colours)
       for (std::uint8_t& channel : colour)
         channel = static_cast<std::uint8_t>(channel / 3);
-    props[0] = cloudLayer(session.frame(), dim);
-    for (const auto& prop : tileLayer(session.frame(), session.tiles()))
-      props.push_back(prop);
+    props[0] = cloudLayer(session.frame(), dim, stride);
+    append(tileLayer(session.frame(), session.tiles()), props);
   }
   screen.show(Screen::LEFT, props);
+  screen.show(Screen::LEFT_MARKS, marks(session.main(), settings));
 }
 
 void ViewerWindow::Parts::drawRight()
 {
   if (!session.compares()) {
     screen.show(Screen::RIGHT, {});
+    screen.show(Screen::RIGHT_MARKS, {});
     return;
   }
   ViewSettings settings = session.settings; // planes are picked on the left
@@ -131,24 +180,29 @@ void ViewerWindow::Parts::drawRight()
   settings.isolate = false;
   settings.hidden.clear();
   PointColours colours;
+  colours.scale = left.scale; // what is compared has one scale
   screen.show(Screen::RIGHT,
               view(session.other(), session.otherColours(), settings, colours));
+  screen.show(Screen::RIGHT_MARKS, marks(session.other(), settings));
 }
 
 void ViewerWindow::Parts::drawPanels()
 {
   const ViewSettings& settings = session.settings;
   Props image, chart;
+  const FilmStep* step = session.filmStep();
   if (settings.panel != Panel::OFF)
-    image.push_back(imageLayer(panelImage(session.frame(), session.main(),
-                                          settings.panel, session.mainColours())));
-  if (session.filmStep() != nullptr && !session.film().energy.empty()) {
+    image.push_back(imageLayer(
+        panelImage(session.frame(), step ? stageOf(*step) : session.main(),
+                   settings.panel, step ? step->classes : session.mainColours())));
+  if (step != nullptr && !session.film().energy.empty()) {
     // The curve grows with the film; after the last iteration it stays whole.
     int shown = -1;
     for (int k = 0; k <= settings.film_step; ++k)
       shown =
           std::max(shown, session.film().steps[static_cast<std::size_t>(k)].iteration);
-    chart.push_back(energyLayer(session.film().energy, shown, settings.dark));
+    if (shown >= 0) // VTK draws no axes without a curve
+      chart.push_back(energyLayer(session.film().energy, shown, settings.dark));
   }
   screen.show(Screen::IMAGE, image);
   screen.show(Screen::CHART, chart);
@@ -159,25 +213,31 @@ Props ViewerWindow::Parts::texts() const
   const ViewSettings& settings = session.settings;
   const bool dark = settings.dark;
   if (settings.help)
-    return {textLayer(keyHelp(), 0.30, 0.98, true, dark, 14)};
+    return {textLayer(keyHelp() + MOUSE_HELP, 0.30, 0.98, true, dark, 14)};
   Props props;
   if (settings.facts) {
     props.push_back(textLayer(factsText(session), 0.01, 0.985, true, dark));
     if (session.compares())
-      props.push_back(textLayer(comparisonText(session), 0.51, 0.985, true, dark));
+      props.push_back(textLayer(comparisonText(session), 0.5 * screen.viewEnd() + 0.01,
+                                0.985, true, dark));
   }
+  if (left.scale && session.filmStep() == nullptr)
+    props.push_back(scaleLayer(*left.scale, screen.viewEnd(), dark));
   std::string below = selectionText(session);
   if (settings.facts && session.filmStep() == nullptr)
     below += left.legend + '\n';
   below += session.message();
   if (!below.empty())
-    props.push_back(textLayer(below, 0.01, 0.015, false, dark));
+    // Sliders reach down to where it would stand.
+    props.push_back(
+        textLayer(below, settings.sliders ? 0.29 : 0.01, 0.015, false, dark));
   return props;
 }
 
-void ViewerWindow::Parts::draw()
+void ViewerWindow::Parts::prepare(bool coarse)
 {
-  screen.arrange(session.compares(), session.settings.dark);
+  stride = coarse ? 2 : 1;
+  screen.arrange(layout());
   drawLeft();
   drawRight();
   drawPanels();
@@ -186,14 +246,23 @@ void ViewerWindow::Parts::draw()
     sliders->show(session.settings.sliders && !session.settings.help,
                   session.parameters(), session.settings.dark);
   screen.renderer(Screen::LEFT)->ResetCameraClippingRange();
+}
+
+void ViewerWindow::Parts::draw()
+{
+  // Drawing by software would hold up a sequence: a quarter of the points until it rests.
+  prepare(session.playing() && full_seconds > 0.5 / session.speed());
+  const Clock::time_point before = Clock::now();
   screen.window()->Render();
+  if (stride == 1)
+    full_seconds = std::chrono::duration<double>(Clock::now() - before).count();
 }
 
 void ViewerWindow::Parts::act(Action action)
 {
   session.perform(action);
   if (action == Action::COMPARE || action == Action::RESET_CAMERA) {
-    screen.arrange(session.compares(), session.settings.dark);
+    screen.arrange(layout());
     screen.look(sensorView(session.frame()));
   }
   if (action == Action::SCREENSHOT) {
@@ -268,9 +337,10 @@ ViewerWindow::ViewerWindow(Session& session, const WindowOptions& options)
       parts.interactor, parts.screen.renderer(Screen::OVERLAY),
       [&parts](std::size_t slider, double value) {
         parts.session.useSlider(slider, value);
-        parts.draw();
+        parts.prepare(parts.full_seconds > DRAG_SECONDS);
         parts.log();
-      });
+      },
+      [&parts] { parts.draw(); });
   parts.screen.look(sensorView(session.frame()));
   draw();
 }

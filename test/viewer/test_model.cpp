@@ -135,6 +135,26 @@ TEST_F(Model, ComparesSideBySide)
   EXPECT_FALSE(session.compares());
 }
 
+TEST_F(Model, WhatIsComparedHasOneScale)
+{
+  Session session = open({room("room.pcd")});
+  session.settings.mode = ColourMode::DISTANCE;
+  const auto colours = [&](const SegmentedView& view,
+                           const std::optional<ColourScale>& scale) {
+    return colourPoints(session.frame(), view, {}, session.settings, {}, scale);
+  };
+  Session paper = open({path("room.pcd")}, Profile::PAPER);
+  const PointColours left = colours(session.main(), {});
+  ASSERT_TRUE(left.scale);
+  const PointColours alone = colours(paper.main(), {});
+  const PointColours right = colours(paper.main(), left.scale);
+  EXPECT_EQ(right.scale->high, left.scale->high);
+  EXPECT_GT(alone.scale->high, left.scale->high) << "worse planes";
+  EXPECT_NE(right.colours, alone.colours);
+  session.settings.mode = ColourMode::PLANE;
+  EXPECT_FALSE(colours(session.main(), {}).scale);
+}
+
 TEST_F(Model, HidesAndIsolatesPlanes)
 {
   Session session = open({room("room.pcd")});
@@ -215,6 +235,20 @@ TEST_F(Model, DeviationsAreThoseOfTheCovariance)
   }
 }
 
+TEST_F(Model, CreasesLieOnBothPlanes)
+{
+  Session session = open({room("room.pcd")});
+  session.perform(Action::CREASES);
+  EXPECT_TRUE(session.settings.creases);
+  const SegmentedView& view = session.main();
+  const std::vector<PlaneCrease> creases = view.creases();
+  ASSERT_FALSE(creases.empty());
+  for (const PlaneCrease& crease : creases)
+    for (const std::size_t k : {crease.first, crease.second})
+      for (const Eigen::Vector3d& end : {crease.start, crease.end})
+        EXPECT_NEAR(view.planes.at(k).normal.dot(end) + view.planes[k].d, 0.0, 1e-3);
+}
+
 TEST_F(Model, FilmEndsWithTheResult)
 {
   for (const Profile profile : {Profile::DEFAULT, Profile::PAPER}) {
@@ -263,6 +297,38 @@ TEST_F(Model, SequenceStopsAtItsEndOrLoops)
   session.advance(10.0);
   EXPECT_EQ(session.frameIndex(), 1u);
   EXPECT_FALSE(session.playing());
+}
+
+TEST_F(Model, FramesWorkedOnAheadAreThoseOfADirectLook)
+{
+  std::filesystem::create_directories(path("frames"));
+  for (int k = 0; k < 4; ++k)
+    room("frames/" + std::to_string(k) + ".pcd", k);
+  Session session = open({path("frames")});
+  const auto expectDirectLook = [&] {
+    const std::string name = std::to_string(session.frameIndex());
+    Session direct = open({path("frames/" + name + ".pcd")});
+    direct.setParameters(session.parameters());
+    EXPECT_EQ(session.frame().name, name);
+    EXPECT_EQ(session.main().labels, direct.main().labels) << name;
+    const bool compared = session.other().labels.size() == direct.main().labels.size();
+    EXPECT_EQ(compared, session.compares()) << name;
+  };
+  session.perform(Action::PLAY); // begins with frame 1
+  session.advance(10.0);
+  expectDirectLook();
+  Parameters changed = session.parameters();
+  changed.min_inliers = 3000;
+  session.setParameters(changed); // frame 2 was begun without
+  session.advance(10.0);
+  expectDirectLook();
+  session.perform(Action::COMPARE); // so was frame 3
+  session.advance(10.0);
+  expectDirectLook();
+  session.perform(Action::PREVIOUS_FRAME); // where frame 0 was begun
+  session.perform(Action::PREVIOUS_FRAME);
+  expectDirectLook();
+  EXPECT_EQ(session.frameIndex(), 1u);
 }
 
 TEST_F(Model, BadParametersAreRefused)

@@ -66,8 +66,9 @@ TEST_F(Pictures, ChangeWithEveryColourAndLayer)
   const std::string input = room("room.pcd");
   const io::ColourImage plain = picture(input, "1");
   // The second half of a pair: what the key adds must be there.
-  for (const char* keys : {"2", "3", "4", "5", "6", "c", "n", "t", "i", "v", "a", "s",
-                           "f", "b", "h", "tab", "tab d", "tab o"})
+  for (const char* keys :
+       {"2",     "3", "4", "5", "6", "c", "n", "g",   "t",     "i",
+        "i i i", "v", "a", "s", "f", "b", "h", "tab", "tab d", "tab o"})
     EXPECT_GT(countDifferences(plain, picture(input, keys)), TEXT) << keys;
 }
 
@@ -75,8 +76,9 @@ TEST_F(Pictures, KeysTwiceBringBackTheView)
 {
   const std::string input = room("room.pcd");
   const io::ColourImage plain = picture(input, "f");
-  for (const char* keys : {"f c c", "f n n", "f t t", "f i i i", "f v v v v v", "f a a",
-                           "f s s", "f b b", "f h h", "f tab d u", "f tab o esc"})
+  for (const char* keys :
+       {"f c c", "f n n", "f g g", "f t t", "f i i i i", "f v v v v v", "f a a",
+        "f s s", "f b b", "f h h", "f tab d u", "f tab o esc"})
     EXPECT_EQ(countDifferences(plain, picture(input, keys)), 0u) << keys;
 }
 
@@ -103,6 +105,36 @@ TEST_F(Pictures, TextIsReadableOnDarkAndOnLight)
     EXPECT_GT(others, 3000u) << background;
     EXPECT_GT(static_cast<double>(readable), 0.8 * static_cast<double>(others))
         << background;
+  }
+}
+
+TEST_F(Pictures, NothingHidesTheNumbersOfThePlanes)
+{
+  const std::string input = room("room.pcd");
+  const io::Colour stroke = {0, 0, 0};
+  const io::ColourImage all = picture(input, "f b n");
+  std::string tabs;
+  for (int plane = 1; plane <= 5; ++plane) {
+    tabs += " tab";
+    const io::ColourImage alone = picture(input, "f b n" + tabs + " o");
+    std::size_t strokes = 0, seen = 0;
+    for (std::size_t i = 0; i < alone.pixels.size() * 4 / 5; ++i) // text is below
+      if (alone.pixels[i] == stroke) {
+        ++strokes;
+        seen += all.pixels[i] == stroke;
+      }
+    EXPECT_GT(strokes, 10u) << plane;
+    EXPECT_EQ(seen, strokes) << plane;
+  }
+}
+
+TEST_F(Pictures, CreasesAreConvexOrConcaveByColour)
+{
+  const io::ColourImage seen = picture(room("room.pcd"), "f g");
+  const io::ColourImage without = picture(room("room.pcd"), "f");
+  for (const io::Colour& colour : {io::Colour{213, 94, 0}, io::Colour{0, 114, 178}}) {
+    EXPECT_GT(countColour(seen, colour), 100u);
+    EXPECT_EQ(countColour(without, colour), 0u);
   }
 }
 
@@ -144,6 +176,31 @@ TEST_F(Pictures, FilmOfASequenceHasAPictureForEachFrame)
   EXPECT_GT(countDifferences(first, second), 1000u);
 }
 
+TEST_F(Pictures, FilmHasNoPictureOfAFrameThatCannotBeRead)
+{
+  std::filesystem::create_directories(path("frames"));
+  room("frames/a.pcd", 1);
+  std::ofstream(path("frames/b.pcd")) << "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\n";
+  room("frames/c.pcd", 2);
+  const Outcome seen =
+      view({path("frames"), "--film", path("film"), "--window", "320x240"});
+  EXPECT_EQ(seen.status, 0);
+  EXPECT_NE(seen.err.find("b.pcd"), std::string::npos) << seen.err;
+  EXPECT_EQ(readPicture(path("film/frame_00000.png")).width, 320);
+  EXPECT_FALSE(std::filesystem::exists(path("film/frame_00001.png")));
+  EXPECT_EQ(readPicture(path("film/frame_00002.png")).width, 320);
+}
+
+TEST_F(Pictures, OutputThatIsNotTakenIsAnError)
+{
+  if (!std::filesystem::is_character_file("/dev/full"))
+    GTEST_SKIP() << "no /dev/full here";
+  const Outcome seen =
+      run("/bin/sh", {"-c", "'" PCL_MRF_PLANES_VIEWER_APP "' --help >/dev/full"});
+  EXPECT_EQ(seen.status, 1);
+  EXPECT_NE(seen.err.find("cannot write to standard output"), std::string::npos);
+}
+
 TEST_F(Pictures, BadInputIsAMessageAndAStatus)
 {
   std::ofstream(path("broken.pcd")) << "VERSION 0.7\nFIELDS x y z\n";
@@ -155,6 +212,10 @@ TEST_F(Pictures, BadInputIsAMessageAndAStatus)
     EXPECT_FALSE(std::filesystem::exists(path("picture.png")));
   }
   const std::string input = room("room.pcd");
+  std::ofstream(path("file")) << "no folder\n";
+  const Outcome no_folder = view({input, "--film", path("file")});
+  EXPECT_EQ(no_folder.status, 1);
+  EXPECT_NE(no_folder.err.find("--film"), std::string::npos) << no_folder.err;
   const Outcome unwritable = view({input, "--screenshot", path("no/such/folder.png")});
   EXPECT_EQ(unwritable.status, 1);
   EXPECT_NE(unwritable.err.find("folder.png"), std::string::npos) << unwritable.err;
