@@ -60,6 +60,19 @@ std::string shortText(double value)
   return text.str();
 }
 
+/// Whether the defaults with this value can be used.
+bool isPossible(const apps::ParameterOption& option, const std::string& text)
+{
+  Parameters parameters;
+  try {
+    option.parse(parameters, text);
+  }
+  catch (const apps::UsageError&) { // out of the parameter's own range
+    return false;
+  }
+  return parameters.validate().empty();
+}
+
 /// Other values of a parameter, as text; none if it is no number, or 0.
 std::vector<std::string> otherValues(const apps::ParameterOption& option)
 {
@@ -76,11 +89,7 @@ std::vector<std::string> otherValues(const apps::ParameterOption& option)
   for (const double factor : {0.25, 0.5, 0.8, 1.25, 2.0, 4.0}) {
     const std::string other =
         shortText(whole ? std::round(factor * value) : factor * value);
-    if (!tried.insert(other).second)
-      continue;
-    Parameters parameters;
-    option.parse(parameters, other);
-    if (parameters.validate().empty())
+    if (tried.insert(other).second && isPossible(option, other))
       values.push_back(other);
   }
   return values;
