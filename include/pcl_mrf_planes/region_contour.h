@@ -10,11 +10,11 @@ namespace pcl_mrf_planes {
 
 /** \brief 4-connected parts of the labels of an image. */
 struct PCL_MRF_PLANES_EXPORT ConnectedParts {
-  static constexpr int NONE = -1;
-  std::vector<int> part_of_point; ///< part of every point, NONE where the label is 0
-  std::vector<int> size;          ///< points of each part
-  std::vector<int> first;         ///< first point of each part, row by row
-  std::vector<std::uint16_t> label;
+  static constexpr int NONE = -1;   ///< of points of no part
+  std::vector<int> part_of_point;   ///< part of every point, NONE where the label is 0
+  std::vector<int> size;            ///< points of each part
+  std::vector<int> first;           ///< first point of each part, row by row
+  std::vector<std::uint16_t> label; ///< label of each part, 1 or more
 };
 
 /** \brief Find the connected parts of a label image; label 0 is background.
