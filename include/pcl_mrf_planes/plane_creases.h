@@ -69,6 +69,8 @@ PCL_MRF_PLANES_EXPORT double normalAngle(const Plane& a, const Plane& b);
 PCL_MRF_PLANES_EXPORT double planeDistance(const PlaneRegion& a, const PlaneRegion& b);
 
 /** \brief The line in which two planes meet.
+ * \param[in] a, b planes of one frame
+ * \param[in] near any point of that frame, metres
  * \param[out] point the point of it nearest to \a near, metres
  * \param[out] direction of unit length
  * \return false for planes that are parallel to 1e-6

@@ -29,7 +29,9 @@ findConnectedParts(const std::vector<std::uint16_t>& labels, int width, int heig
  * Moore's tracing, ended when the walk would leave the first point as it did before
  * (Jacob's criterion), so that narrow parts that are passed twice do not cut it short.
  *
- * \param[in] parts result of findConnectedParts() \param[in] part which one
+ * \param[in] parts result of findConnectedParts()
+ * \param[in] part which one
+ * \param[in] width, height of the image, points
  * \return indices of points; one for a part of one point. O(length)
  */
 PCL_MRF_PLANES_EXPORT std::vector<int> traceContour(const ConnectedParts& parts,

@@ -66,6 +66,7 @@ PCL_MRF_PLANES_EXPORT DepthMap toMetres(const Image16& values,
                                         const CameraModel& camera);
 
 /** \brief The organized cloud x, y, z that a camera sees; invalid points are NaN.
+ * \param[in] depth metres, NaN where nothing was measured
  * \param[in] camera fitted to the map */
 PCL_MRF_PLANES_EXPORT CloudFile cloudFromDepth(const DepthMap& depth,
                                                const CameraModel& camera);
