@@ -38,7 +38,7 @@ def printed_by(blocks, scene_app, work, compiler, flags):
     work.mkdir(parents=True, exist_ok=True)
     source, executable, room = work / 'tutorial.cpp', work / 'tutorial', work / 'room.pcd'
     source.write_text(program(blocks))
-    libraries = [flag for flag in flags if re.match(r'-l|-L|-Wl|.*\.(so|a)$', flag)]
+    libraries = [flag for flag in flags if re.match(r'-l|-L|-Wl|.*\.(so|a)(\.[0-9.]+)?$', flag)]
     others = [flag for flag in flags if flag not in libraries]
     subprocess.run([compiler, '-std=c++17', *others, source, '-o', executable, *libraries],
                    check=True)
