@@ -65,7 +65,7 @@ std::uint16_t BeliefPropagation::sendMessages(int colour)
     alignToSenders(rows, colour, y);
     KernelScratch scratch(field_.labels(), layout.stride);
     change[static_cast<std::size_t>(y)] =
-        sendRow(siteRow(field_, received_, colour, y), rows, scratch);
+        sendWatchedRow(siteRow(field_, received_, colour, y), rows, scratch);
   });
   return change.empty() ? std::uint16_t{0}
                         : *std::max_element(change.begin(), change.end());

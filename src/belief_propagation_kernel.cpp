@@ -22,66 +22,123 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<std::uint16_t, CheckerboardLayout::PADDING>;
 using Vec = hn::Vec<Tag>;
 
-/// Data cost plus the four messages of label l.
-HWY_INLINE Vec belief(const SiteRow& row, std::ptrdiff_t offset)
-{
-  const Tag d;
-  Vec sum = hn::LoadU(d, row.data + offset);
-  for (const std::uint16_t* received : row.received)
-    sum = hn::Add(sum, hn::LoadU(d, received + offset));
-  return sum;
-}
+/// Where the costs of the sites of a row lie, in registers.
+struct SitePointers {
+  explicit SitePointers(const SiteRow& row)
+  : data(row.data)
+  , left(row.received[LEFT])
+  , right(row.received[RIGHT])
+  , above(row.received[ABOVE])
+  , below(row.received[BELOW])
+  {}
 
-/// Stores a message and remembers how far it moved.
-HWY_INLINE void store(Vec message, std::uint16_t* target, Vec& change)
-{
-  const Tag d;
-  const Vec old = hn::LoadU(d, target);
-  change = hn::Max(change, hn::Sub(hn::Max(message, old), hn::Min(message, old)));
-  hn::StoreU(message, d, target);
-}
+  /// Data cost plus the four messages, of a label and of sites so far on.
+  HWY_INLINE Vec belief(std::ptrdiff_t at) const
+  {
+    const Tag d;
+    const Vec across = hn::Add(hn::LoadU(d, left + at), hn::LoadU(d, right + at));
+    const Vec along = hn::Add(hn::LoadU(d, above + at), hn::LoadU(d, below + at));
+    return hn::Add(hn::LoadU(d, data + at), hn::Add(across, along));
+  }
+
+  const std::uint16_t *data, *left, *right, *above, *below;
+};
+
+/// Stores messages; looks at how far they move, or does not.
+struct Watched {
+  HWY_INLINE void store(Vec message, std::uint16_t* target)
+  {
+    const Tag d;
+    const Vec old = hn::LoadU(d, target);
+    change = hn::Max(change, hn::Sub(hn::Max(message, old), hn::Min(message, old)));
+    hn::StoreU(message, d, target);
+  }
+
+  Vec change;
+};
+
+struct Unwatched {
+  HWY_INLINE void store(Vec message, std::uint16_t* target) const
+  {
+    hn::StoreU(message, Tag(), target);
+  }
+};
+
+/// What a site knows but for what the receiver told it, with its least and its most.
+struct Knowledge {
+  std::uint16_t* h; ///< a vector for each label
+  Vec least, most;
+};
 
 /// Messages max(0, pairwise - weight): exact, with predecessors that cannot win
 /// skipped.
 ///
 /// m(b) = min over a of h(a) + price(a, b), and price(b, b) = 0. A label a != b can
 /// beat h(b) only if h(a) + least price < h(b), hence only if h(a) + least price < max
-/// h. As min h = 0, the least value of the message is 0 as well: it comes out
-/// normalised.
-HWY_INLINE void sendSoftThreshold(const SiteRow& row, const std::uint16_t* h, Vec most,
-                                  Vec weight, std::vector<int>& active,
-                                  std::uint16_t* target, Vec& change)
+/// h. The least value is that of h. No sum overflows: h has three of the four messages
+/// that GridField allows for. Where there is no edge, nothing is told.
+template <class Store>
+HWY_INLINE void sendSoftThreshold(const SiteRow& row, const Knowledge& site, Vec weight,
+                                  int* active, std::uint16_t* target, Store&& store)
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
-  const Vec least = hn::SaturatedSub(hn::Set(d, row.least_pairwise), weight);
+  // What is written could be any of these, for all the compiler knows.
+  const int labels = row.labels;
+  const std::ptrdiff_t stride = row.label_stride;
+  const std::uint16_t* const h = site.h;
+  const Vec least = site.least;
+
+  const auto none = hn::Eq(weight, hn::Set(d, PairPrices::NO_EDGE));
+  const Vec cheapest = hn::SaturatedSub(hn::Set(d, row.least_pairwise), weight);
+  // What h has to be below to matter; nothing is below 0.
+  const Vec limit = hn::IfThenZeroElse(none, hn::SaturatedSub(site.most, cheapest));
   int count = 0;
-  for (int a = 0; a < row.labels; ++a) {
-    const Vec reach =
-        hn::Add(hn::Load(d, h + static_cast<std::size_t>(a) * lanes), least);
-    if (!hn::AllTrue(d, hn::Eq(hn::Max(reach, most), reach))) // some lane: reach < most
-      active[static_cast<std::size_t>(count++)] = a;
+  for (int a = 0; a < labels; ++a) {
+    active[count] = a;
+    count += hn::AllFalse(
+                 d, hn::Lt(hn::Load(d, h + static_cast<std::size_t>(a) * lanes), limit))
+                 ? 0
+                 : 1;
   }
-  for (int b = 0; b < row.labels; ++b) {
-    const std::uint16_t* prices =
-        row.pairwise + static_cast<std::ptrdiff_t>(b) * row.labels;
-    Vec message = hn::Load(d, h + static_cast<std::size_t>(b) * lanes);
+
+  const std::uint16_t* prices = row.pairwise;
+  const std::uint16_t* own = h;
+  int b = 0;
+  // Two labels at once: what the site knows of a third one is loaded for both.
+  for (; b + 2 <= labels; b += 2, own += 2 * lanes, prices += 2 * labels) {
+    Vec message = hn::Load(d, own);
+    Vec next = hn::Load(d, own + lanes);
     for (int i = 0; i < count; ++i) {
-      const int a = active[static_cast<std::size_t>(i)];
+      const auto a = static_cast<std::size_t>(active[i]);
+      const Vec known = hn::Load(d, h + a * lanes);
       const Vec price = hn::SaturatedSub(hn::Set(d, prices[a]), weight);
-      message =
-          hn::Min(message,
-                  hn::Add(hn::Load(d, h + static_cast<std::size_t>(a) * lanes), price));
+      const Vec next_price = hn::SaturatedSub(
+          hn::Set(d, prices[a + static_cast<std::size_t>(labels)]), weight);
+      message = hn::Min(message, hn::Add(known, price));
+      next = hn::Min(next, hn::Add(known, next_price));
     }
-    store(message, target + static_cast<std::ptrdiff_t>(b) * row.label_stride, change);
+    store.store(hn::IfThenZeroElse(none, hn::Sub(message, least)), target);
+    store.store(hn::IfThenZeroElse(none, hn::Sub(next, least)), target + stride);
+    target += 2 * stride;
+  }
+  if (b < labels) {
+    Vec message = hn::Load(d, own);
+    for (int i = 0; i < count; ++i) {
+      const auto a = static_cast<std::size_t>(active[i]);
+      const Vec price = hn::SaturatedSub(hn::Set(d, prices[a]), weight);
+      message = hn::Min(message, hn::Add(hn::Load(d, h + a * lanes), price));
+    }
+    store.store(hn::IfThenZeroElse(none, hn::Sub(message, least)), target);
   }
 }
 
 /// Messages max(pairwise, scale * weight): the diagonal is not free, so every
-/// predecessor counts and the least value has to be subtracted afterwards.
-HWY_INLINE void sendScaledMaximum(const SiteRow& row, std::uint16_t* h, Vec weight,
+/// predecessor counts and the least value of the message is not that of h.
+template <class Store>
+HWY_INLINE void sendScaledMaximum(const SiteRow& row, const Knowledge& site, Vec weight,
                                   std::uint16_t* message, std::uint16_t* target,
-                                  Vec& change)
+                                  Store&& store)
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
@@ -92,8 +149,8 @@ HWY_INLINE void sendScaledMaximum(const SiteRow& row, std::uint16_t* h, Vec weig
     for (int a = 0; a < row.labels; ++a) {
       const Vec scaled = hn::MulHigh(hn::Set(d, row.scale[pairs + a]), weight);
       const Vec price = hn::Max(hn::Set(d, row.pairwise[pairs + a]), scaled);
-      best = hn::Min(
-          best, hn::Add(hn::Load(d, h + static_cast<std::size_t>(a) * lanes), price));
+      const Vec h = hn::Load(d, site.h + static_cast<std::size_t>(a) * lanes);
+      best = hn::Min(best, hn::Add(hn::Sub(h, site.least), price));
     }
     hn::Store(best, d, message + static_cast<std::size_t>(b) * lanes);
     least = hn::Min(least, best);
@@ -101,68 +158,92 @@ HWY_INLINE void sendScaledMaximum(const SiteRow& row, std::uint16_t* h, Vec weig
   const auto none = hn::Eq(weight, hn::Set(d, PairPrices::NO_EDGE));
   for (int b = 0; b < row.labels; ++b) {
     const Vec best = hn::Load(d, message + static_cast<std::size_t>(b) * lanes);
-    store(hn::IfThenZeroElse(none, hn::Sub(best, least)),
-          target + static_cast<std::ptrdiff_t>(b) * row.label_stride, change);
+    store.store(hn::IfThenZeroElse(none, hn::Sub(best, least)),
+                target + static_cast<std::ptrdiff_t>(b) * row.label_stride);
   }
 }
 
-std::uint16_t SendMessages(const SiteRow& row, const SendRow& send,
-                           KernelScratch& scratch)
+/// All that a vector of sites knows but for what one neighbour told them.
+HWY_INLINE Knowledge withoutMessage(const SiteRow& row, const std::uint16_t* beliefs,
+                                    const std::uint16_t* received, std::uint16_t* h)
 {
   const Tag d;
   const std::size_t lanes = hn::Lanes(d);
-  std::uint16_t* const sum = scratch.belief;
+  const std::ptrdiff_t stride = row.label_stride;
+  Vec least = hn::Set(d, PairPrices::NO_EDGE);
+  Vec most = hn::Zero(d);
+  std::uint16_t* to = h;
+  for (int l = row.labels; l > 0; --l) {
+    const Vec rest = hn::Sub(hn::Load(d, beliefs), hn::LoadU(d, received));
+    hn::Store(rest, d, to);
+    least = hn::Min(least, rest);
+    most = hn::Max(most, rest);
+    beliefs += lanes;
+    to += lanes;
+    received += stride;
+  }
+  return {h, least, most};
+}
+
+template <class Store>
+HWY_INLINE void sendMessages(const SiteRow& row, const SendRow& send,
+                             KernelScratch& scratch, Store&& store)
+{
+  const Tag d;
+  std::uint16_t* const beliefs = scratch.belief;
   std::uint16_t* const h = scratch.h;
-
-  Vec change = hn::Zero(d);
-  for (std::ptrdiff_t k = 0; k < row.sites; k += static_cast<std::ptrdiff_t>(lanes)) {
-    for (int l = 0; l < row.labels; ++l)
-      hn::Store(belief(row, l * static_cast<std::ptrdiff_t>(row.label_stride) + k), d,
-                sum + static_cast<std::size_t>(l) * lanes);
-
+  int* const active = scratch.active.data();
+  const int labels = row.labels;
+  const SitePointers costs(row);
+  for (std::ptrdiff_t k = 0; k < row.sites;
+       k += static_cast<std::ptrdiff_t>(hn::Lanes(d))) {
+    std::ptrdiff_t at = k;
+    for (int l = 0; l < labels; ++l, at += row.label_stride)
+      hn::Store(costs.belief(at), d,
+                beliefs + static_cast<std::size_t>(l) * hn::Lanes(d));
     for (int direction = 0; direction < DIRECTIONS; ++direction) {
       if (send.target[direction] == nullptr)
         continue;
-      // h: everything that the site knows but what the receiver told it.
-      Vec least = hn::Set(d, PairPrices::NO_EDGE);
-      for (int l = 0; l < row.labels; ++l) {
-        const Vec told =
-            hn::LoadU(d, row.received[direction] +
-                             l * static_cast<std::ptrdiff_t>(row.label_stride) + k);
-        const Vec rest =
-            hn::Sub(hn::Load(d, sum + static_cast<std::size_t>(l) * lanes), told);
-        hn::Store(rest, d, h + static_cast<std::size_t>(l) * lanes);
-        least = hn::Min(least, rest);
-      }
-      Vec most = hn::Zero(d);
-      for (int l = 0; l < row.labels; ++l) {
-        const Vec rest =
-            hn::Sub(hn::Load(d, h + static_cast<std::size_t>(l) * lanes), least);
-        hn::Store(rest, d, h + static_cast<std::size_t>(l) * lanes);
-        most = hn::Max(most, rest);
-      }
+      const Knowledge site =
+          withoutMessage(row, beliefs, row.received[direction] + k, h);
       const Vec weight = hn::LoadU(d, send.weight[direction] + k);
+      std::uint16_t* const target = send.target[direction] + k;
       if (row.model == EdgeModel::SOFT_THRESHOLD)
-        sendSoftThreshold(row, h, most, weight, scratch.active,
-                          send.target[direction] + k, change);
+        sendSoftThreshold(row, site, weight, active, target, store);
       else
-        sendScaledMaximum(row, h, weight, scratch.message, send.target[direction] + k,
-                          change);
+        sendScaledMaximum(row, site, weight, scratch.message, target, store);
     }
   }
-  return hn::GetLane(hn::MaxOfLanes(d, change));
+}
+
+void SendMessages(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
+{
+  sendMessages(row, send, scratch, Unwatched());
+}
+
+std::uint16_t SendWatchedMessages(const SiteRow& row, const SendRow& send,
+                                  KernelScratch& scratch)
+{
+  const Tag d;
+  Watched store = {hn::Zero(d)};
+  sendMessages(row, send, scratch, store);
+  return hn::GetLane(hn::MaxOfLanes(d, store.change));
 }
 
 void MapRow(const SiteRow& row, std::uint16_t* labels)
 {
   const Tag d;
+  const int count = row.labels;
+  const std::ptrdiff_t stride = row.label_stride;
+  const SitePointers first(row);
   for (std::ptrdiff_t k = 0; k < row.sites;
        k += static_cast<std::ptrdiff_t>(hn::Lanes(d))) {
-    Vec least = belief(row, k);
+    std::ptrdiff_t at = k;
+    Vec least = first.belief(at);
     Vec best = hn::Zero(d);
-    for (int l = 1; l < row.labels; ++l) {
-      const Vec cost =
-          belief(row, l * static_cast<std::ptrdiff_t>(row.label_stride) + k);
+    for (int l = 1; l < count; ++l) {
+      at += stride;
+      const Vec cost = first.belief(at);
       const auto better = hn::Lt(cost, least);
       best = hn::IfThenElse(better, hn::Set(d, static_cast<std::uint16_t>(l)), best);
       least = hn::Min(least, cost);
@@ -179,6 +260,7 @@ HWY_AFTER_NAMESPACE();
 namespace pcl_mrf_planes {
 
 HWY_EXPORT(SendMessages);
+HWY_EXPORT(SendWatchedMessages);
 HWY_EXPORT(MapRow);
 
 namespace {
@@ -224,9 +306,15 @@ void alignToSenders(SendRow& send, int colour, int y)
   send.target[RIGHT] += left + 1;
 }
 
-std::uint16_t sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
+void sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
 {
-  return HWY_DYNAMIC_DISPATCH(SendMessages)(row, send, scratch);
+  HWY_DYNAMIC_DISPATCH(SendMessages)(row, send, scratch);
+}
+
+std::uint16_t sendWatchedRow(const SiteRow& row, const SendRow& send,
+                             KernelScratch& scratch)
+{
+  return HWY_DYNAMIC_DISPATCH(SendWatchedMessages)(row, send, scratch);
 }
 
 void mapSites(const SiteRow& row, int width, int colour, int y, KernelScratch& scratch,

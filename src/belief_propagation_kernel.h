@@ -59,8 +59,12 @@ SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
 /// row.
 void alignToSenders(SendRow& send, int colour, int y);
 
-/// Sends the messages of one row of sites; returns the largest change of a message.
-std::uint16_t sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch);
+/// Sends the messages of one row of sites.
+void sendRow(const SiteRow& row, const SendRow& send, KernelScratch& scratch);
+
+/// The same; returns the largest change of a message.
+std::uint16_t sendWatchedRow(const SiteRow& row, const SendRow& send,
+                             KernelScratch& scratch);
 
 /// Writes the label of least belief cost of every site of the row into the label image.
 void mapSites(const SiteRow& row, int width, int colour, int y, KernelScratch& scratch,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "label_runs.h"
+#include "label_runs_kernel.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -58,17 +59,35 @@ private:
 
 namespace {
 
-/// Adds the runs of the points from begin to end, all of one row.
-void addRuns(const std::vector<std::uint16_t>& labels, std::uint16_t background,
-             std::size_t begin, std::size_t end, std::vector<LabelRun>& runs)
-{
-  for (std::size_t i = begin; i < end;) {
-    const std::size_t other = findOther(labels[i], labels.data(), i + 1, end);
-    if (labels[i] != background)
-      runs.push_back({i, other, labels[i]});
-    i = other;
+/// Finds the runs of one row after another.
+class RunFinder {
+public:
+  RunFinder(const std::vector<std::uint16_t>& labels, std::size_t width,
+            std::uint16_t background)
+  : labels_(labels)
+  , width_(width)
+  , background_(background)
+  , changes_(width)
+  {}
+
+  void addRow(std::size_t row, std::vector<LabelRun>& runs)
+  {
+    std::size_t begin = row * width_;
+    const std::size_t count = findChanges(&labels_[begin], width_, changes_.data());
+    for (std::size_t k = 0; k <= count; ++k) {
+      const std::size_t end = row * width_ + (k < count ? changes_[k] : width_);
+      if (labels_[begin] != background_)
+        runs.push_back({begin, end, labels_[begin]});
+      begin = end;
+    }
   }
-}
+
+private:
+  const std::vector<std::uint16_t>& labels_;
+  std::size_t width_;
+  std::uint16_t background_;
+  std::vector<std::uint32_t> changes_; ///< of the row at hand
+};
 
 } // namespace
 
@@ -82,9 +101,10 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
   std::vector<std::vector<LabelRun>> parts(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {
     std::vector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
+    RunFinder finder(labels, out.width, background);
     for (int r = bands.begin(band); r < bands.begin(band + 1); ++r) {
       const auto row = static_cast<std::size_t>(r);
-      addRuns(labels, background, row * out.width, (row + 1) * out.width, runs);
+      finder.addRow(row, runs);
       out.rows[row + 1] = runs.size(); // as yet of the band
     }
   });

@@ -43,7 +43,9 @@ Parameters Parameters::fromProfile(Profile profile)
   if (profile == Profile::FAST) {
     AdaptiveParameters& adaptive = parameters.adaptive;
     adaptive.sampling = 2;
-    adaptive.levels = 3; // as large in the image as the three first of all points
+    // As large in the image as the three first tiles and half the window of all points.
+    adaptive.levels = 3;
+    adaptive.local_reach = 1;
     adaptive.min_points = 30;
     adaptive.min_evidence = 200.0;
   }

@@ -189,7 +189,7 @@ TEST(RegionStagesTest, SmallPartsLoseTheirLabelAndLargeOnesKeepIt)
     }
     const ConnectedParts parts = findConnectedParts(labels, WIDTH, HEIGHT);
     LabelledPoints image(labels, WIDTH);
-    refineRegions(points, pyramid[0], whiteNoise(0.01), parameters, image);
+    refineRegions(points, pyramid, whiteNoise(0.01), parameters, image);
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (labels[i] == 0) {
         EXPECT_EQ(image.labels[i], 0);

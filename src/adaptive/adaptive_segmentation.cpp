@@ -122,7 +122,7 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   report.iterations += parameters.passes;
   timer.finish("propagation");
   FittedRegions fitted =
-      refineRegions(points, pyramid[0], noise, parameters, image, threads);
+      refineRegions(points, pyramid, noise, parameters, image, threads);
   if (observer != nullptr)
     observer->seeImage(Stage::REFINED, fitted, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image, threads);
@@ -138,14 +138,15 @@ Labelling labelSampled(const OrganizedPoints& points, const Parameters& paramete
                        StageObserver* observer)
 {
   const int every = parameters.adaptive.sampling;
-  const OrganizedPoints samples = samplePoints(points, every);
+  const OrganizedPoints samples =
+      samplePoints(points, every, parameters.number_of_threads);
   timer.finish("sampling");
   Labelling found = labelPlanes(samples, parameters, report, timer, observer);
   found.block_noise.reset(); // of blocks of samples
-  found.image = LabelledPoints(spreadLabels(points, samples, found.image.labels, every,
-                                            found.fitted.planes, found.noise,
-                                            parameters.adaptive),
-                               points.width);
+  found.image = LabelledPoints(
+      spreadLabels(points, samples, found.image.labels, every, found.fitted.planes,
+                   found.noise, parameters.adaptive, parameters.number_of_threads),
+      points.width, parameters.number_of_threads);
   timer.finish("sampling");
   return found;
 }

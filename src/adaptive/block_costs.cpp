@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -65,9 +66,10 @@ void BlockCosts::fill(const BlockPlace& place, const std::uint16_t* labels,
 
 inline void BlockCosts::copyPoints(std::size_t i, std::size_t count)
 {
-  std::copy_n(&points_.x[i], count, row_.x);
-  std::copy_n(&points_.y[i], count, row_.y);
-  std::copy_n(&points_.z[i], count, row_.z);
+  // A copy that may overlap would be a call.
+  std::memcpy(row_.x, &points_.x[i], count * sizeof(float));
+  std::memcpy(row_.y, &points_.y[i], count * sizeof(float));
+  std::memcpy(row_.z, &points_.z[i], count * sizeof(float));
   for (std::size_t k = 0; k < count; ++k)
     row_.valid[k] = static_cast<std::int16_t>(-points_.valid[i + k]);
 }

@@ -14,6 +14,4 @@ struct BlockNoise {
   std::vector<TileSums> blocks; ///< of BLOCK_LEVEL of the tile pyramid
 };
 
-constexpr std::size_t BLOCK_LEVEL = 1; ///< tiles that are the blocks of the field
-
 } // namespace pcl_mrf_planes::adaptive

@@ -13,7 +13,6 @@ namespace {
 
 constexpr int SIDE = CandidateBlocks::SIDE;
 constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
-constexpr std::size_t BLOCK_LEVEL = 1; // tiles that are the blocks
 static_assert(SIDE == 2 * CELL, "tiles of the level above the cells are the blocks");
 
 /// So many that the largest sum, a data cost and four messages, stays below 2^15.

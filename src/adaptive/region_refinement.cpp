@@ -22,27 +22,29 @@ void dropSmallParts(int least, LabelledPoints& image)
     }
 }
 
-/// Sums of the points of each label; whole cells of one label are added at once.
+/// Sums of the points of each label; blocks and cells that are of one label as a whole are
+/// added at once.
 class LabelSums {
 public:
-  LabelSums(const OrganizedPoints& points, const TileLevel& cells,
+  LabelSums(const OrganizedPoints& points, const std::vector<TileLevel>& pyramid,
             const std::vector<std::uint16_t>& labels, std::size_t count)
   : sums(count)
   , points_(points)
-  , cells_(cells)
+  , cells_(pyramid[0])
+  , blocks_(pyramid[BLOCK_LEVEL])
   , labels_(labels)
   {}
 
-  void addCells(int row)
+  void addBlocks(int row)
   {
-    for (int c = 0; c < cells_.columns; ++c) {
-      const TileSums& cell = cells_.sums[cells_.at(c, row)];
-      if (cell.n < 1)
+    for (int c = 0; c < blocks_.columns; ++c) {
+      const TileSums& block = blocks_.sums[blocks_.at(c, row)];
+      if (block.n < 1)
         continue;
-      if (isWhole(c, row))
-        sums[labels_[firstPoint(c, row)]] += cell;
+      if (isWhole<BLOCK>(c, row))
+        sums[labels_[firstPoint(c * BLOCK, row * BLOCK)]] += block;
       else
-        addPoints(c, row, cell.noise / cell.n);
+        addCells(c, row);
     }
   }
 
@@ -55,27 +57,45 @@ public:
   std::vector<TileSums> sums;
 
 private:
-  std::size_t firstPoint(int column, int row) const
+  static constexpr int BLOCK = 2 * CELL; ///< side, points
+
+  void addCells(int block_column, int block_row)
   {
-    return static_cast<std::size_t>(row * CELL) *
-               static_cast<std::size_t>(points_.width) +
-           static_cast<std::size_t>(column * CELL);
+    for (int r = 2 * block_row; r < std::min(2 * block_row + 2, cells_.rows); ++r)
+      for (int c = 2 * block_column; c < std::min(2 * block_column + 2, cells_.columns);
+           ++c) {
+        const TileSums& cell = cells_.sums[cells_.at(c, r)];
+        if (cell.n < 1)
+          continue;
+        if (isWhole<CELL>(c, r))
+          sums[labels_[firstPoint(c * CELL, r * CELL)]] += cell;
+        else
+          addPoints(c, r, cell.noise / cell.n);
+      }
   }
 
-  /// All points of one label: a row of a cell is one word.
+  std::size_t firstPoint(int u, int v) const
+  {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(points_.width) +
+           static_cast<std::size_t>(u);
+  }
+
+  /// All points of one label: four points of a row are one word.
+  template <int SIDE>
   bool isWhole(int column, int row) const
   {
     constexpr std::uint64_t FOUR_TIMES = 0x0001000100010001U;
-    if ((column + 1) * CELL > points_.width || (row + 1) * CELL > points_.height)
+    if ((column + 1) * SIDE > points_.width || (row + 1) * SIDE > points_.height)
       return false;
-    std::size_t i = firstPoint(column, row);
+    std::size_t i = firstPoint(column * SIDE, row * SIDE);
     const std::uint64_t all = FOUR_TIMES * labels_[i];
     std::uint64_t differ = 0;
-    for (int v = 0; v < CELL; ++v, i += static_cast<std::size_t>(points_.width)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, &labels_[i], sizeof(word));
-      differ |= word ^ all;
-    }
+    for (int v = 0; v < SIDE; ++v, i += static_cast<std::size_t>(points_.width))
+      for (std::size_t u = 0; u < SIDE; u += 4) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &labels_[i + u], sizeof(word));
+        differ |= word ^ all;
+      }
     return differ == 0;
   }
 
@@ -85,9 +105,7 @@ private:
     const int right = std::min((column + 1) * CELL, points_.width);
     for (int v = row * CELL; v < bottom; ++v)
       for (int u = column * CELL; u < right; ++u) {
-        const std::size_t i =
-            static_cast<std::size_t>(v) * static_cast<std::size_t>(points_.width) +
-            static_cast<std::size_t>(u);
+        const std::size_t i = firstPoint(u, v);
         if (labels_[i] == 0)
           continue;
         TileSums& sum = sums[labels_[i]];
@@ -98,17 +116,20 @@ private:
 
   const OrganizedPoints& points_;
   const TileLevel& cells_;
+  const TileLevel& blocks_;
   const std::vector<std::uint16_t>& labels_;
 };
 
-std::vector<TileSums> sumLabels(const OrganizedPoints& points, const TileLevel& cells,
+std::vector<TileSums> sumLabels(const OrganizedPoints& points,
+                                const std::vector<TileLevel>& pyramid,
                                 const std::vector<std::uint16_t>& labels,
                                 std::size_t count, unsigned int threads)
 {
-  return sumOfBands(cells.rows, threads, LabelSums(points, cells, labels, count),
+  return sumOfBands(pyramid[BLOCK_LEVEL].rows, threads,
+                    LabelSums(points, pyramid, labels, count),
                     [](int first, int last, LabelSums& sums) {
                       for (int row = first; row < last; ++row)
-                        sums.addCells(row);
+                        sums.addBlocks(row);
                     })
       .sums;
 }
@@ -129,7 +150,8 @@ void LabelledPoints::renumber(const std::vector<std::uint16_t>& id,
   });
 }
 
-FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
+FittedRegions refineRegions(const OrganizedPoints& points,
+                            const std::vector<TileLevel>& pyramid,
                             const NoiseLaw& noise, const AdaptiveParameters& parameters,
                             LabelledPoints& image, unsigned int threads)
 {
@@ -138,7 +160,7 @@ FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cell
   for (const LabelRun& run : image.runs.runs)
     count = std::max<std::size_t>(count, run.label + 1U);
   const std::vector<TileSums> sums =
-      sumLabels(points, cells, image.labels, count, threads);
+      sumLabels(points, pyramid, image.labels, count, threads);
   FittedRegions out;
   std::vector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {

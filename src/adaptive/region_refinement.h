@@ -24,7 +24,8 @@ struct LabelledPoints {
 /** \brief After labelling: small components of a label lose it, planes are fitted again
  * to their points, those that are not planar given the noise or too small are dropped.
  * Labels are renumbered 1..planes.size(). */
-FittedRegions refineRegions(const OrganizedPoints& points, const TileLevel& cells,
+FittedRegions refineRegions(const OrganizedPoints& points,
+                            const std::vector<TileLevel>& pyramid,
                             const NoiseLaw& noise, const AdaptiveParameters& parameters,
                             LabelledPoints& image, unsigned int threads = 1);
 

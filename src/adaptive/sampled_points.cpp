@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/sampled_points.h"
+#include "threads.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -43,32 +43,45 @@ public:
   , labels_(labels)
   , every_(every)
   , none_(static_cast<float>(parameters.none_cost))
-  , wide_(static_cast<std::size_t>(samples.width * every))
   {
     for (const FittedPlane& plane : planes)
       planes_.push_back(nearPlane(plane, noise, parameters));
   }
 
-  void spreadRow(int row)
+  /// \param wide working memory
+  void spreadRow(int row, std::vector<std::uint16_t>& wide)
   {
     const std::uint16_t* above = rowOf(row);
     const std::uint16_t* below = rowOf(std::min(row + 1, samples_.height - 1));
     const int bottom = std::min(points_.height, (row + 1) * every_);
-    widen(above);
+    widen(above, wide);
     for (int v = row * every_; v < bottom; ++v)
-      copyRow(v);
+      copyRow(v, wide);
     const int last = samples_.width - 1;
     for (int c = 0; (c = findMixed(above, below, c, last)) <= last; ++c) {
       const int next = std::min(c + 1, last);
-      decide({above[c], above[next], below[c], below[next]}, c * every_, row * every_,
-             bottom);
+      decide(Around(above[c], above[next], below[c], below[next]), c * every_,
+             row * every_, bottom);
     }
   }
 
   std::vector<std::uint16_t> out;
 
 private:
-  using Around = std::array<std::uint16_t, 4>;
+  /// The different labels at the corners of a square.
+  struct Around {
+    Around(std::uint16_t first, std::uint16_t second, std::uint16_t third,
+           std::uint16_t fourth)
+    : labels{first}
+    {
+      for (const std::uint16_t label : {second, third, fourth})
+        if (std::find(labels, labels + count, label) == labels + count)
+          labels[count++] = label;
+    }
+
+    std::uint16_t labels[4];
+    int count = 1;
+  };
 
   const std::uint16_t* rowOf(int row) const
   {
@@ -83,9 +96,10 @@ private:
   }
 
   /// The labels of a row of samples, each as often as it stands for points.
-  void widen(const std::uint16_t* samples)
+  void widen(const std::uint16_t* samples, std::vector<std::uint16_t>& wide) const
   {
-    std::uint16_t* to = wide_.data();
+    wide.resize(static_cast<std::size_t>(samples_.width * every_));
+    std::uint16_t* to = wide.data();
     if (every_ == 2) { // the usual case
       for (int c = 0; c < samples_.width; ++c)
         to[2 * c] = to[2 * c + 1] = samples[c];
@@ -96,9 +110,9 @@ private:
   }
 
   /// The label of the sample to the left and above for all valid points of a row.
-  void copyRow(int v)
+  void copyRow(int v, const std::vector<std::uint16_t>& wide)
   {
-    const std::uint16_t* from = wide_.data();
+    const std::uint16_t* from = wide.data();
     std::uint16_t* to = &out[at(0, v)];
     const std::uint8_t* valid = &points_.valid[at(0, v)];
     for (int u = 0; u < points_.width; ++u)
@@ -142,12 +156,12 @@ private:
 
   std::uint16_t best(const Around& around, std::size_t i) const
   {
-    std::uint16_t label = around[0];
+    std::uint16_t label = around.labels[0];
     float least = cost(label, i);
-    for (std::size_t k = 1; k < around.size(); ++k)
-      if (const float other = cost(around[k], i); other < least) {
+    for (int k = 1; k < around.count; ++k)
+      if (const float other = cost(around.labels[k], i); other < least) {
         least = other;
-        label = around[k];
+        label = around.labels[k];
       }
     return label;
   }
@@ -164,13 +178,13 @@ private:
   const std::vector<std::uint16_t>& labels_;
   int every_;
   float none_;
-  std::vector<std::uint16_t> wide_; ///< labels of the row at hand
   std::vector<NearPlane> planes_;
 };
 
 } // namespace
 
-OrganizedPoints samplePoints(const OrganizedPoints& points, int every)
+OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
+                             unsigned int threads)
 {
   OrganizedPoints samples;
   samples.resize((points.width + every - 1) / every,
@@ -178,22 +192,23 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every)
   samples.depth_measure = points.depth_measure;
   const auto step = static_cast<std::size_t>(every);
   const auto columns = static_cast<std::size_t>(samples.width);
-  const auto take = [&](const auto& from, auto& to) {
-    for (std::size_t r = 0; r < static_cast<std::size_t>(samples.height); ++r) {
-      const auto* row = &from[r * step * static_cast<std::size_t>(points.width)];
-      auto* out = &to[r * columns];
-      if (step == 2) // the usual case
-        for (std::size_t c = 0; c < columns; ++c)
-          out[c] = row[2 * c];
-      else
-        for (std::size_t c = 0; c < columns; ++c)
-          out[c] = row[step * c];
-    }
+  const auto take = [&](const auto& from, std::size_t r, auto& to) {
+    const auto* row = &from[r * step * static_cast<std::size_t>(points.width)];
+    auto* out = &to[r * columns];
+    if (step == 2) // the usual case
+      for (std::size_t c = 0; c < columns; ++c)
+        out[c] = row[2 * c];
+    else
+      for (std::size_t c = 0; c < columns; ++c)
+        out[c] = row[step * c];
   };
-  take(points.x, samples.x);
-  take(points.y, samples.y);
-  take(points.z, samples.z);
-  take(points.valid, samples.valid);
+  parallelRows(samples.height, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    take(points.x, r, samples.x);
+    take(points.y, r, samples.y);
+    take(points.z, r, samples.z);
+    take(points.valid, r, samples.valid);
+  });
   return samples;
 }
 
@@ -201,11 +216,15 @@ std::vector<std::uint16_t>
 spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<std::uint16_t>& labels, int every,
              const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
-             const AdaptiveParameters& parameters)
+             const AdaptiveParameters& parameters, unsigned int threads)
 {
   LabelSpreading spreading(points, samples, labels, every, planes, noise, parameters);
-  for (int row = 0; row < samples.height; ++row)
-    spreading.spreadRow(row);
+  const Bands bands(samples.height);
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<std::uint16_t> wide;
+    for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
+      spreading.spreadRow(row, wide);
+  });
   return std::move(spreading.out);
 }
 

@@ -10,7 +10,8 @@ namespace pcl_mrf_planes::adaptive {
 
 /** \brief Every so many-th point of every so many-th row, from the first on.
  * O(points / every^2) */
-OrganizedPoints samplePoints(const OrganizedPoints& points, int every);
+OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
+                             unsigned int threads = 1);
 
 /** \brief Labels of all points from those of the sampled ones (0 none, k planes[k - 1]).
  *
@@ -21,6 +22,6 @@ std::vector<std::uint16_t>
 spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<std::uint16_t>& labels, int every,
              const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
-             const AdaptiveParameters& parameters);
+             const AdaptiveParameters& parameters, unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive
