@@ -10,6 +10,7 @@ from performance_tables import PROFILES, fine
 
 TOTALS = ('whole', 'processor')
 GOALS = {'FAST': 1.6, 'DEFAULT': 5.0}  # milliseconds
+LABEL_GOALS = {10: 10.0, 40: 20.0}  # the same, of PAPER by the number of labels
 STAGE_COLOURS = plt.get_cmap('tab20').colors
 
 
@@ -101,6 +102,25 @@ def goals_block(rows):
         f'One object for all {clouds} clouds, processor time in ms:', '',
         markdown_table(['profile', 'goal', 'median', 'least', 'most', 'planes, median',
                         'clouds without planes'], lines)])
+
+
+# --- block: cloud labels --------------------------------------------------------------
+
+
+def labels_block(rows):
+    """Profile PAPER by the number of labels, which stands for the profile."""
+    wholes = {int(labels): {(row['set'], row['frame']): row.number('milliseconds')
+                            for row in numbered if row['stage'] == 'processor'}
+              for labels, numbered in group(rows, 'profile').items()}
+    few, many = min(wholes), max(wholes)
+    lines = [[str(labels), f'{LABEL_GOALS[labels]:g} ms' if labels in LABEL_GOALS else '',
+              str(len(times)), *spread(list(times.values()))]
+             for labels, times in sorted(wholes.items())]
+    ratios = [ms / wholes[few][cloud] for cloud, ms in wholes[many].items()]
+    return '\n'.join([
+        markdown_table(['labels', 'goal', 'clouds', 'median ms', 'least', 'most'], lines),
+        '', f'On the same cloud {many} labels take {statistics.median(ratios):.1f} times as '
+        f'long as {few}, median.'])
 
 
 # --- blocks: peers, and speed of README.md ----------------------------------------------

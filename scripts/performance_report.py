@@ -4,8 +4,8 @@
 
   performance_report.py FOLDER [--page FILE] [--readme FILE] [--pictures FOLDER]
 
-FOLDER holds what scripts/benchmark left: machine.csv, rooms.csv, memory.csv and, for real
-clouds, stages.csv and peers.csv. Each stands for blocks of the page: what lies between
+FOLDER holds what scripts/benchmark left: machine.csv, rooms.csv, memory.csv, instructions.csv
+and, for real clouds, stages.csv, labels.csv and peers.csv. Each stands for blocks of the page: what lies between
 "<!-- begin NAME -->" and "<!-- end NAME -->" is written anew. Blocks whose CSV is missing stay
 as they are. Needs python3-matplotlib.
 """
@@ -47,10 +47,14 @@ def page_blocks(folder, pictures):
     blocks.update(room_blocks(times, pictures))
     blocks['memory'] = rooms.memory_block(memory)
     blocks['goals'] = rooms.goals_block(times, memory)
+    if (folder / 'instructions.csv').exists():
+        blocks['counts'] = rooms.counts_block(read_rows(folder / 'instructions.csv'))
     if (folder / 'stages.csv').exists():
         stages = read_rows(folder / 'stages.csv')
         blocks['stages'] = clouds.stages_block(stages, pictures)
         blocks['cloud goals'] = clouds.goals_block(stages)
+    if (folder / 'labels.csv').exists():
+        blocks['cloud labels'] = clouds.labels_block(read_rows(folder / 'labels.csv'))
     if (folder / 'peers.csv').exists():
         blocks['peers'] = clouds.peers_block(read_rows(folder / 'peers.csv'))
     return blocks

@@ -2,7 +2,7 @@
 """Blocks of doc/performance.md about generated rooms."""
 import matplotlib.pyplot as plt
 
-from accuracy_tables import COLOURS, markdown_table, save_plot
+from accuracy_tables import COLOURS, group, markdown_table, save_plot
 from performance_tables import (
     INSTRUCTION_SETS, PAPER_10, PROFILES, VGA, camera_times, exponent, fine, in_order,
     megabytes, parts_of, points_of, shape_title, shapes_of, title_of)
@@ -266,3 +266,26 @@ def goals_block(times, memory):
     lines = [*label_goals(times), *thread_goals(times), *point_goals(times),
              *memory_goals(memory)]
     return markdown_table(['what', 'goal', 'measured'], lines)
+
+
+# --- block: counts --------------------------------------------------------------------
+
+
+def counts_block(rows):
+    """Instructions and bytes a point by stage and profile."""
+    profiles = group(rows, 'profile')
+    counts = {name: {row['stage']: (row.number('instructions'), row.number('bytes'))
+                     for row in stages} for name, stages in profiles.items()}
+    # The stages of the profile with the most of them come first.
+    stages = dict.fromkeys(stage for name in sorted(counts, key=lambda n: -len(counts[n]))
+                           for stage in counts[name])
+    lines = [[stage] + [f'{counts[name][stage][0]:.1f} ({counts[name][stage][1]:.0f})'
+                        if stage in counts[name] else '' for name in counts]
+             for stage in stages]
+    wholes = [[sum(column) for column in zip(*counts[name].values())] for name in counts]
+    lines.append(['all'] + [f'{instructions:.0f} ({fetched:.0f})'
+                            for instructions, fetched in wholes])
+    return '\n'.join([
+        'Instructions a point on the generated room, and in brackets bytes a point that pass '
+        'between the', 'first cache (32 KiB) and what lies behind it:', '',
+        markdown_table(['stage'] + [title_of(name) for name in counts], lines)])

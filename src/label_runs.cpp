@@ -94,6 +94,7 @@ private:
 LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
                    std::uint16_t background, unsigned int threads)
 {
+  constexpr std::size_t FEW = 16; // runs of a row, about
   LabelRuns out;
   out.width = static_cast<std::size_t>(width);
   const Bands bands(width > 0 ? static_cast<int>(labels.size() / out.width) : 0);
@@ -102,12 +103,18 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
   parallelParts(bands.count, threads, [&](int band) {
     std::vector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
     RunFinder finder(labels, out.width, background);
+    runs.reserve(FEW *
+                 static_cast<std::size_t>(bands.begin(band + 1) - bands.begin(band)));
     for (int r = bands.begin(band); r < bands.begin(band + 1); ++r) {
       const auto row = static_cast<std::size_t>(r);
       finder.addRow(row, runs);
       out.rows[row + 1] = runs.size(); // as yet of the band
     }
   });
+  std::size_t count = 0;
+  for (const std::vector<LabelRun>& runs : parts)
+    count += runs.size();
+  out.runs.reserve(count);
   for (int band = 0; band < bands.count; ++band) {
     for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
       out.rows[static_cast<std::size_t>(r) + 1] += out.runs.size();

@@ -4,6 +4,7 @@
 #include "reference/inputs.h"
 
 #include "field_kernel.h"
+#include "label_runs_kernel.h"
 
 #include <pcl_mrf_planes/belief_propagation.h>
 #include <pcl_mrf_planes/plane_segmentation.h>
@@ -50,6 +51,33 @@ TEST(InstructionSetTest, PropagationGivesTheSameLabels)
     EXPECT_GE(tried, 1);
     RecordProperty("instruction_sets", tried);
   }
+}
+
+TEST(InstructionSetTest, ChangesOfLabelsAreFoundWhereTheyAre)
+{
+  constexpr std::uint32_t UNTOUCHED = 4711;
+  scenes::Random random(11);
+  for (std::size_t count = 1; count < 200; count += count < 70 ? 1 : 43)
+    for (const double share : {0.0, 0.1, 1.0}) {
+      std::vector<std::uint16_t> labels(count, 9);
+      for (std::size_t k = 1; k < count; ++k)
+        labels[k] = random.uniform() < share
+                        ? static_cast<std::uint16_t>(random.integer(0, 65535))
+                        : labels[k - 1];
+      std::vector<std::uint32_t> expected;
+      for (std::size_t k = 1; k < count; ++k)
+        if (labels[k] != labels[k - 1])
+          expected.push_back(static_cast<std::uint32_t>(k));
+      forEachInstructionSet([&](const char* name) {
+        std::vector<std::uint32_t> places(count, UNTOUCHED);
+        const std::size_t found = findChanges(labels.data(), count, places.data());
+        ASSERT_LT(found, count) << "no room for the last on " << name;
+        EXPECT_EQ(places[count - 1], UNTOUCHED)
+            << "written behind the room on " << name;
+        places.resize(found);
+        EXPECT_EQ(places, expected) << count << " labels on " << name;
+      });
+    }
 }
 
 /// Costs of a row, at an odd address and with something behind that must survive.

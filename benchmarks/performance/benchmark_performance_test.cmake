@@ -55,12 +55,14 @@ expect("${FOLDER}/performance.md" "| processor | Z80, 4 MHz |" "At 160x120:"
 
 run("${STAGES}" --data "${FOLDER}/data" --width 160 --height 120 --repeat 2
   --output "${FOLDER}/results/stages.csv")
+run("${STAGES}" --data "${FOLDER}/data" --width 160 --height 120 --repeat 2 --labels 1 2
+  --output "${FOLDER}/results/labels.csv")
 run("${PEERS}" --data "${FOLDER}/data" --repeat 1 --methods mrf_planes pcl_multi_plane
   --output "${FOLDER}/results/peers.csv")
 report()
 expect("${FOLDER}/performance.md" "One object for all 1 clouds"
   "1 clouds, a new object for each" "| stage | FAST | DEFAULT | PAPER |\n"
-  "The longest stage of PAPER is ")
+  "The longest stage of PAPER is " "On the same cloud 2 labels take ")
 expect("${FOLDER}/README.md" "One core of Z80, 4 MHz, SDCC, 640x480"
   "over 1 frames" "| profile FAST | ")
 foreach(name points labels stages)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** \file Command line: time of every stage of each profile on the 640x480 clouds of
- * folders, by one object for each profile that goes from cloud to cloud. */
+/** \file Command line: time of every stage of each profile, or of PAPER with given numbers of
+ * labels, on the 640x480 clouds of folders, by one object that goes from cloud to cloud. */
 #include "frames.h"
+#include "paper_labels.h"
 #include "profiles.h"
 
 #include <boost/program_options.hpp>
@@ -26,6 +27,7 @@ struct StageOptions {
   bool help = false;
   std::string data, output;
   std::vector<std::string> sets;
+  std::vector<int> labels;
   int width = 640, height = 480;
   int repeat = 9;
 };
@@ -47,6 +49,8 @@ po::options_description describe(StageOptions& o)
       "folder of sets: SET/NAME.pcd; otherwise the environment's PCL_MRF_PLANES_DATA");
   add("output", po::value(&o.output)->default_value("stages.csv"), "CSV to write");
   add("sets", po::value(&o.sets)->multitoken(), "these sets only");
+  add("labels", po::value(&o.labels)->multitoken(),
+      "in place of the profiles: PAPER with so many labels, where a cloud gives them");
   add("width", po::value(&o.width), "of the clouds that count, otherwise 640");
   add("height", po::value(&o.height), "of the clouds that count, otherwise 480");
   add("repeat", po::value(&o.repeat),
@@ -103,28 +107,49 @@ std::vector<std::string> namesOf(const ReusedSegmenter& segmenter)
   return names;
 }
 
-void measure(const Frame& frame, const Cloud::ConstPtr& cloud, int repeat,
-             const NamedProfile& profile, ReusedSegmenter& segmenter,
-             std::ostream& stream)
+/// What is measured: a profile, or PAPER with a number of labels.
+struct Candidate {
+  std::string name;
+  std::size_t labels; ///< that a cloud must give; 0: any
+  ReusedSegmenter segmenter;
+};
+
+std::vector<Candidate> candidates(const StageOptions& options)
 {
+  std::vector<Candidate> all;
+  for (const int labels : options.labels)
+    all.push_back({std::to_string(labels), static_cast<std::size_t>(labels),
+                   ReusedSegmenter(withLabelsOnClouds(labels))});
+  if (all.empty())
+    for (const NamedProfile& profile : allProfiles())
+      all.push_back(
+          {profile.name, 0, ReusedSegmenter(Parameters::fromProfile(profile.profile))});
+  return all;
+}
+
+void measure(const Frame& frame, const Cloud::ConstPtr& cloud, int repeat,
+             Candidate& candidate, std::ostream& stream)
+{
+  ReusedSegmenter& segmenter = candidate.segmenter;
   segmenter.segment(cloud); // not timed: the object meets the cloud
+  if (candidate.labels != 0 &&
+      segmenter.segmentation.getReport().planes_after_merging != candidate.labels)
+    return;
   StageTimes times;
   for (int run = 0; run < repeat; ++run)
     addRun(segmenter, cloud, times);
   for (const std::string& name : namesOf(segmenter))
-    stream << frame.set << ',' << frame.name << ',' << profile.name << ',' << name
+    stream << frame.set << ',' << frame.name << ',' << candidate.name << ',' << name
            << ',' << medianOf(times[name]) << ',' << cloud->size() << ','
            << segmenter.planes.size() << '\n';
-  std::cout << frame.set << ' ' << frame.name << ' ' << profile.name << ": "
+  std::cout << frame.set << ' ' << frame.name << ' ' << candidate.name << ": "
             << medianOf(times[WHOLE]) << " ms" << std::endl;
 }
 
 /// \return how many clouds there were
 int measureAll(const StageOptions& options, std::ostream& stream)
 {
-  std::vector<ReusedSegmenter> segmenters;
-  for (const NamedProfile& profile : allProfiles())
-    segmenters.emplace_back(Parameters::fromProfile(profile.profile));
+  std::vector<Candidate> all = candidates(options);
   int clouds = 0;
   for (const Frame& frame : listFrames(options.data, options.sets)) {
     const Cloud::ConstPtr cloud = readCloud(frame);
@@ -132,8 +157,8 @@ int measureAll(const StageOptions& options, std::ostream& stream)
         static_cast<int>(cloud->height) != options.height)
       continue;
     ++clouds;
-    for (std::size_t k = 0; k < segmenters.size(); ++k)
-      measure(frame, cloud, options.repeat, allProfiles()[k], segmenters[k], stream);
+    for (Candidate& candidate : all)
+      measure(frame, cloud, options.repeat, candidate, stream);
   }
   return clouds;
 }

@@ -22,6 +22,17 @@ inline Parameters withLabels(int labels)
   return parameters;
 }
 
+/** \brief The same for clouds of depth cameras, of which some give 40 labels: tiles may
+ * deviate far from their planes. */
+inline Parameters withLabelsOnClouds(int labels)
+{
+  Parameters parameters = Parameters::fromProfile(Profile::PAPER);
+  parameters.merge_threshold = 0.1;
+  parameters.noise_multiplier = 14.0;
+  parameters.max_planes = labels;
+  return parameters;
+}
+
 /** \brief The label planes that the room at 640x480 gives.
  * \throws std::runtime_error when they are not as many as asked for */
 inline std::vector<Plane> labelPlanes(const Parameters& parameters)

@@ -94,20 +94,24 @@ CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cell
     out.labels[block * SLOTS + out.count[block]++] =
         static_cast<std::uint16_t>(region + 1);
   };
-  parallelRows(out.rows, threads, [&](int r) {
-    Surroundings around(regions, cells, reach);
-    for (int c = 0; c < out.columns; ++c) {
-      const std::size_t block = out.at(c, r);
-      around.look(c, r);
-      if (int region = -1; around.isUniform(region)) {
-        if (region >= 0)
-          add(block, region);
-        continue;
-      }
-      for (const auto& [distance, region] : around.regions())
-        if (out.count[block] < SLOTS)
-          add(block, region);
+  const auto addAround = [&](Surroundings& around, int c, int r) {
+    const std::size_t block = out.at(c, r);
+    around.look(c, r);
+    if (int region = -1; around.isUniform(region)) {
+      if (region >= 0)
+        add(block, region);
+      return;
     }
+    for (const auto& [distance, region] : around.regions())
+      if (out.count[block] < SLOTS)
+        add(block, region);
+  };
+  const Bands bands(out.rows);
+  parallelParts(bands.count, threads, [&](int band) {
+    Surroundings around(regions, cells, reach);
+    for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
+      for (int c = 0; c < out.columns; ++c)
+        addAround(around, c, r);
   });
   return out;
 }

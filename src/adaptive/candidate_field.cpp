@@ -43,6 +43,7 @@ struct FieldSources {
   , parameters(of_parameters)
   , depth(points.z.data())
   {
+    scales.reserve(regions.planes.size());
     for (const FittedPlane& plane : regions.planes)
       scales.push_back(labelScale(plane, noise, parameters));
     if (points.depth_measure == DepthMeasure::RANGE)

@@ -24,6 +24,7 @@ public:
   , change_(CELL * parameters.label_change)
   , labels_(regions.cell_region)
   {
+    scales_.reserve(regions.planes.size());
     for (const FittedPlane& plane : regions.planes)
       scales_.push_back(labelScale(plane, noise, parameters));
   }

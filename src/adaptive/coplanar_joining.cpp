@@ -15,6 +15,49 @@ struct Cell {
   int column, row;
 };
 
+/// Some cells that follow each other in memory.
+struct CellRange {
+  const Cell* first;
+  const Cell* last; ///< one past the end
+
+  const Cell* begin() const { return first; }
+  const Cell* end() const { return last; }
+  std::size_t size() const { return static_cast<std::size_t>(last - first); }
+};
+
+/// The cells of each region, row by row.
+class RegionCells {
+public:
+  RegionCells(const TileRegions& regions, const TileLevel& cells)
+  : starts_(regions.planes.size() + 1, 0)
+  {
+    // Counting sort; where a region is to start is where it ends once it is filled.
+    std::vector<std::size_t> filled(starts_);
+    for (const int id : regions.cell_region)
+      if (id >= 0)
+        ++filled[static_cast<std::size_t>(id)];
+    for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
+      starts_[k + 1] = starts_[k] + filled[k];
+      filled[k] = starts_[k];
+    }
+    cells_.resize(starts_.back());
+    for (int r = 0; r < cells.rows; ++r)
+      for (int c = 0; c < cells.columns; ++c)
+        if (const int id = regions.cell_region[cells.at(c, r)]; id >= 0)
+          cells_[filled[static_cast<std::size_t>(id)]++] = {c, r};
+  }
+
+  CellRange of(int region) const
+  {
+    const auto k = static_cast<std::size_t>(region);
+    return {cells_.data() + starts_[k], cells_.data() + starts_[k + 1]};
+  }
+
+private:
+  std::vector<std::size_t> starts_;
+  std::vector<Cell> cells_;
+};
+
 /// What lies between two regions of the image.
 class Gap {
 public:
@@ -23,14 +66,12 @@ public:
   : points_(points)
   , side_(cells.side)
   , parameters_(parameters)
-  , members_(regions.planes.size())
+  , members_(regions, cells)
   {
-    for (int r = 0; r < cells.rows; ++r)
-      for (int c = 0; c < cells.columns; ++c)
-        if (const int id = regions.cell_region[cells.at(c, r)]; id >= 0)
-          members_[static_cast<std::size_t>(id)].push_back({c, r});
-    for (const std::vector<Cell>& cells_of : members_)
-      boxes_.push_back(boxOf(cells_of));
+    const auto count = static_cast<int>(regions.planes.size());
+    boxes_.reserve(regions.planes.size());
+    for (int k = 0; k < count; ++k)
+      boxes_.push_back(boxOf(members_.of(k)));
   }
 
   /// False if the gap is too wide even between the boxes around the parts.
@@ -49,15 +90,16 @@ public:
   bool mayHidePlane(int a, int b, const FittedPlane& plane, double tolerance) const
   {
     constexpr std::size_t WALKS = 12;
-    const std::vector<Cell>& from = members_[static_cast<std::size_t>(a)];
-    const std::vector<Cell>& to = members_[static_cast<std::size_t>(b)];
+    const CellRange from = members_.of(a);
+    const CellRange to = members_.of(b);
     Walked walked;
     int gap = std::numeric_limits<int>::max();
     const std::size_t stride = std::max<std::size_t>(1, from.size() / WALKS);
     for (std::size_t k = stride / 2; k < from.size(); k += stride) {
-      const Cell& nearest = nearestOf(to, from[k]);
-      gap = std::min(gap, squaredDistance(from[k], nearest));
-      walk(plane, tolerance, from[k], nearest, walked);
+      const Cell& cell = from.first[k];
+      const Cell& nearest = nearestOf(to, cell);
+      gap = std::min(gap, squaredDistance(cell, nearest));
+      walk(plane, tolerance, cell, nearest, walked);
     }
     return walked.off_plane <= parameters_.join_seen * walked.points &&
            gap <= widest(a, b);
@@ -73,7 +115,7 @@ private:
     Cell low, high;
   };
 
-  static Box boxOf(const std::vector<Cell>& cells)
+  static Box boxOf(const CellRange& cells)
   {
     constexpr int FAR = 1 << 14; // cells
     Box box = {{FAR, FAR}, {-FAR, -FAR}};
@@ -90,8 +132,7 @@ private:
   double widest(int a, int b) const
   {
     const auto smaller =
-        static_cast<double>(std::min(members_[static_cast<std::size_t>(a)].size(),
-                                     members_[static_cast<std::size_t>(b)].size()));
+        static_cast<double>(std::min(members_.of(a).size(), members_.of(b).size()));
     return parameters_.join_gap * parameters_.join_gap * smaller;
   }
 
@@ -102,7 +143,7 @@ private:
     return dx * dx + dy * dy;
   }
 
-  static const Cell& nearestOf(const std::vector<Cell>& cells, const Cell& to)
+  static const Cell& nearestOf(const CellRange& cells, const Cell& to)
   {
     return *std::min_element(cells.begin(), cells.end(),
                              [&](const Cell& a, const Cell& b) {
@@ -143,7 +184,7 @@ private:
   const OrganizedPoints& points_;
   int side_;
   const AdaptiveParameters& parameters_;
-  std::vector<std::vector<Cell>> members_;
+  RegionCells members_;
   std::vector<Box> boxes_;
 };
 

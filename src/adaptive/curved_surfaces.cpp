@@ -3,9 +3,10 @@
 #include "adaptive/surface_bend.h"
 #include "threads.h"
 
+#include <boost/container/flat_map.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -23,7 +24,7 @@ struct Border {
 };
 
 /// Borders by the regions on either side, the smaller number first.
-using Borders = std::map<std::pair<int, int>, Border>;
+using Borders = boost::container::flat_map<std::pair<int, int>, Border>;
 
 /// Looks across every change of label, at points so far apart that the smoothing of edges by
 /// the sensor does not count.

@@ -46,10 +46,12 @@ void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
   });
   const std::size_t bins = std::min<std::size_t>(8, 1 + samples.size() / 40);
   double s00 = 0, s01 = 0, s11 = 0, b0 = 0, b1 = 0;
+  std::vector<double> rms;
+  rms.reserve(samples.size() / bins + 1);
   for (std::size_t k = 0; k < bins; ++k) {
     const std::size_t i0 = k * samples.size() / bins;
     const std::size_t i1 = (k + 1) * samples.size() / bins;
-    std::vector<double> rms;
+    rms.clear();
     for (std::size_t i = i0; i < i1; ++i)
       rms.push_back(samples[i].rms);
     const double z = samples[(i0 + i1) / 2].z;
@@ -172,11 +174,13 @@ std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
   std::vector<std::vector<double>> parts(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {
     std::vector<double>& ratios = parts[static_cast<std::size_t>(band)];
+    ratios.reserve(level.planes.size() / parts.size());
     const int end = std::min(level.rows, step * bands.begin(band + 1));
     for (int r = step * bands.begin(band); r < end; r += step)
       addGrowthRatios(level, below, {r, step}, known_growth, noise, parameters, ratios);
   });
   std::vector<double> ratios;
+  ratios.reserve(level.planes.size());
   for (const std::vector<double>& part : parts)
     ratios.insert(ratios.end(), part.begin(), part.end());
   return ratios;
@@ -272,8 +276,7 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
   const TileCounts quiet(
       level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
   std::vector<double> factors(squares.at(0, squares.rows), 1.0);
-  parallelRows(squares.rows, threads, [&](int r) {
-    std::vector<double> around;
+  const auto findRow = [&](int r, std::vector<double>& around) {
     for (int c = 0; c < squares.columns; ++c) {
       const TileWindow window = {
           std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
@@ -289,6 +292,12 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
       factors[squares.at(c, r)] = std::clamp(
           percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
     }
+  };
+  const Bands bands(squares.rows);
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<double> around;
+    for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
+      findRow(r, around);
   });
   return factors;
 }
@@ -319,6 +328,7 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
   NoiseLaw noise;
   noise.floor = parameters.min_sigma;
   std::vector<Sample> samples;
+  samples.reserve(2 * ENOUGH);
   const std::vector<FittedPlane>& planes = pyramid[BASE].planes;
   // An odd step goes through all columns.
   const std::size_t step = (planes.size() / ENOUGH) | 1U;

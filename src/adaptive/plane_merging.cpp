@@ -68,6 +68,7 @@ std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& c
     if (cell_region[cell] >= 0)
       is_in[static_cast<std::size_t>(cell_region[cell])] = 1;
   std::vector<int> found;
+  found.reserve(tiles);
   for (std::size_t tile = 0; tile < tiles; ++tile)
     if (is_in[tile] != 0)
       found.push_back(static_cast<int>(tile));
@@ -87,7 +88,10 @@ public:
   , threads_(threads)
   , limit_(parameters.merge_tolerance * parameters.merge_tolerance)
   , queue_(static_cast<float>(limit_))
-  {}
+  {
+    pairs_.reserve(PAIRS * tiles_.size());
+    joint_.reserve(PAIRS * tiles_.size());
+  }
 
   /// Merges until no two neighbours are one plane; what was too different may fit what has
   /// grown. \param[in] mark walks before this one \return the same after it
@@ -100,6 +104,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t PAIRS = 4; ///< for each tile at first, about
+
   /// \return whether any were merged
   bool mergeOnce()
   {

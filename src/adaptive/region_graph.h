@@ -23,6 +23,7 @@ public:
   , marks_(sums_.size(), 0)
   {
     std::iota(parent_.begin(), parent_.end(), 0);
+    links_.reserve(LINKS * sums_.size());
   }
 
   int find(int i)
@@ -90,6 +91,7 @@ public:
 
 private:
   static constexpr int NO_LINK = -1;
+  static constexpr std::size_t LINKS = 8; ///< of a set at first, about
 
   /// A neighbour in a list of them; lists are joined without copying.
   struct Link {

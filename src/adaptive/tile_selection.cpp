@@ -22,6 +22,17 @@ public:
   , cell_region_(cell_region)
   {}
 
+  /// \param[in] tiles that the part can have
+  void reserve(std::size_t tiles)
+  {
+    regions.planes.reserve(tiles);
+    regions.sums.reserve(tiles);
+    const auto columns = static_cast<std::size_t>(cells_.columns);
+    free_.reserve(columns);
+    sums_.reserve(columns);
+    planes_.reserve(columns);
+  }
+
   void addRow(const TileLevel& level, int row)
   {
     findFree(level, row);
@@ -120,6 +131,7 @@ private:
 TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                         const AdaptiveParameters& parameters, unsigned int threads)
 {
+  constexpr std::size_t FEW = 4; // cells a tile, about
   const auto smallest = static_cast<std::size_t>(parameters.smallest_level);
   const TileLevel& cells = pyramid[0];
   const Bands bands(pyramid.back().rows);
@@ -134,6 +146,7 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
   std::vector<LevelStarts> starts(parts.size(), {0});
   parallelParts(bands.count, threads, [&](int band) {
     const auto part = static_cast<std::size_t>(band);
+    parts[part].reserve(cells.sums.size() / parts.size() / FEW);
     for (std::size_t l = pyramid.size(); l-- > smallest;) {
       const TileRows rows = rowsOf(pyramid[l], band);
       for (int row = rows.begin; row < rows.end; ++row)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Prints a number for every bit of the results on generated scenes, for
-// scripts/compare-compilers to hold one compiler's against another's.
+// Prints numbers for every bit of the labels, and of all results, on generated scenes: for
+// scripts/compare-compilers and scripts/compare-arm to hold against each other's.
 #include "reference/inputs.h"
 #include "reference/result_hash.h"
 
@@ -24,7 +24,12 @@ int main()
     int number = 0;
     for (const Profile profile : {Profile::DEFAULT, Profile::FAST, Profile::PAPER}) {
       const auto result = segmentPlanes(points, Parameters::fromProfile(profile));
-      std::printf("%s profile %d %016llx\n", scene.c_str(), number++,
+      reference::BitHash labels;
+      for (const std::uint16_t label : result.labels)
+        labels.add(label);
+      std::printf("%s profile %d labels %016llx\n", scene.c_str(), number,
+                  static_cast<unsigned long long>(labels.value()));
+      std::printf("%s profile %d all %016llx\n", scene.c_str(), number++,
                   static_cast<unsigned long long>(reference::resultHash(result)));
     }
   }
