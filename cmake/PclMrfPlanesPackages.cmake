@@ -85,6 +85,7 @@ Finds planes in organized point clouds of depth cameras and lidars, and labels
 every point with one of them, or none, by inference on a Markov random field.
 .
 This package contains programs that segment clouds, depth images and whole
-data sets, generate scenes with ground truth, and score results.")
+data sets, show what they found in a viewer, generate scenes with ground truth,
+and score results.")
 
 include(CPack)

@@ -2,7 +2,6 @@
 #include "named_parameters.h"
 #include "studies.h"
 
-#include "option_values.h"
 #include "parameter_options.h"
 
 #include <cmath>
@@ -61,14 +60,14 @@ std::string shortText(double value)
   return text.str();
 }
 
-/// Whether a value is in the range of a parameter and goes together with the others' defaults.
-bool isValid(const apps::ParameterOption& option, const std::string& value)
+/// Whether the defaults with this value can be used.
+bool isPossible(const apps::ParameterOption& option, const std::string& text)
 {
   Parameters parameters;
   try {
-    option.parse(parameters, value);
+    option.parse(parameters, text);
   }
-  catch (const apps::UsageError&) {
+  catch (const apps::UsageError&) { // out of the parameter's own range
     return false;
   }
   return parameters.validate().empty();
@@ -90,9 +89,7 @@ std::vector<std::string> otherValues(const apps::ParameterOption& option)
   for (const double factor : {0.25, 0.5, 0.8, 1.25, 2.0, 4.0}) {
     const std::string other =
         shortText(whole ? std::round(factor * value) : factor * value);
-    if (!tried.insert(other).second)
-      continue;
-    if (isValid(option, other))
+    if (tried.insert(other).second && isPossible(option, other))
       values.push_back(other);
   }
   return values;

@@ -20,6 +20,7 @@ namespace pcl_mrf_planes {
  * In the field's 16-bit units, row by row; 65535 where there is but one label.
  * O(sites * labels)
  * \param[in] field the field that \a propagation works on
+ * \param[in] propagation after its iterations
  */
 PCL_MRF_PLANES_EXPORT std::vector<std::uint16_t>
 beliefGaps(const GridField& field, const BeliefPropagation& propagation);

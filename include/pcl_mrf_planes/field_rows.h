@@ -23,6 +23,8 @@ public:
   static constexpr std::uint16_t NO_EDGE = 65535;
 
   PairPrices() = default;
+  /// Prices of 0 for all pairs. \param[in] labels how many, >= 1
+  /// \param[in] model how weights and labels give a price. O(labels^2)
   explicit PairPrices(int labels, EdgeModel model = EdgeModel::SOFT_THRESHOLD)
   : labels_(labels)
   , model_(model)
@@ -30,11 +32,15 @@ public:
   , scale_(pairwise_)
   {}
 
+  /// Number of labels.
   int labels() const { return labels_; }
+  /// How weights and labels give a price.
   EdgeModel edgeModel() const { return model_; }
 
   /** \brief Cost of the label pair (a, b), symmetric, 0 on the diagonal. */
   std::uint16_t pairwise(int a, int b) const { return pairwise_[pair(a, b)]; }
+  /// Set the cost of (a, b) and (b, a). \param[in] a, b labels, 0 to labels() - 1
+  /// \param[in] cost 0 if a equals b
   void setPairwise(int a, int b, std::uint16_t cost)
   {
     pairwise_[pair(a, b)] = pairwise_[pair(b, a)] = cost;
@@ -43,6 +49,8 @@ public:
   /** \brief Scale of the weight for the pair in EdgeModel::SCALED_MAXIMUM, in 1/65536.
    */
   std::uint16_t scale(int a, int b) const { return scale_[pair(a, b)]; }
+  /// Set the scale of (a, b) and (b, a). \param[in] a, b labels, 0 to labels() - 1
+  /// \param[in] factor in 1/65536
   void setScale(int a, int b, std::uint16_t factor)
   {
     scale_[pair(a, b)] = scale_[pair(b, a)] = factor;
@@ -69,8 +77,9 @@ public:
     return least;
   }
 
-  /** \brief The L x L matrices, row by row. */
+  /// The costs of all pairs, L x L, row by row.
   const std::uint16_t* pairwiseMatrix() const { return pairwise_.data(); }
+  /// The scales of all pairs, L x L, row by row.
   const std::uint16_t* scaleMatrix() const { return scale_.data(); }
 
 private:
@@ -95,11 +104,12 @@ private:
 struct PCL_MRF_PLANES_EXPORT CheckerboardLayout {
   static constexpr int PADDING = 32; ///< elements before and behind a row of sites
 
-  int width = 0;
-  int height = 0;
+  int width = 0;  ///< columns of sites
+  int height = 0; ///< rows of sites
   int stride = 0; ///< elements from one row of a colour to the next
 
   CheckerboardLayout() = default;
+  /// For a grid of that many columns and rows, each >= 1.
   CheckerboardLayout(int grid_width, int grid_height);
 
   /** \brief 1 when the first site of \a colour in row \a y is at x = 1. */
@@ -141,7 +151,9 @@ class PCL_MRF_PLANES_EXPORT FieldRows {
 public:
   virtual ~FieldRows() = default;
 
+  /// Size of the grid, and where its sites lie in memory.
   virtual const CheckerboardLayout& layout() const = 0;
+  /// Number of labels, and what two of them side by side cost.
   virtual const PairPrices& prices() const = 0;
 
   /** \brief Write the costs of every site of row \a y, and nothing beside the sites.

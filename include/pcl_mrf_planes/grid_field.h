@@ -55,9 +55,13 @@ public:
   /** \brief A copy of all the rows of another field. O(sites * labels) */
   explicit GridField(const FieldRows& rows);
 
+  /// Columns of sites.
   int width() const { return layout_.width; }
+  /// Rows of sites.
   int height() const { return layout_.height; }
+  /// Number of labels.
   int labels() const { return prices_.labels(); }
+  /// How weights and labels give a price.
   EdgeModel edgeModel() const { return prices_.edgeModel(); }
   const CheckerboardLayout& layout() const override { return layout_; }
   const PairPrices& prices() const override { return prices_; }
@@ -67,6 +71,7 @@ public:
   {
     return data_[colour(x, y)][at(x, y, l)];
   }
+  /// Set the data cost of label \a l at site (x, y).
   void setData(int x, int y, int l, std::uint16_t cost)
   {
     data_[colour(x, y)][at(x, y, l)] = cost;
@@ -74,13 +79,18 @@ public:
 
   /// \name See PairPrices
   ///@{
+  /** \brief PairPrices::pairwise() */
   std::uint16_t pairwise(int a, int b) const { return prices_.pairwise(a, b); }
+  /// PairPrices::setPairwise()
   void setPairwise(int a, int b, std::uint16_t cost)
   {
     prices_.setPairwise(a, b, cost);
   }
+  /// PairPrices::scale()
   std::uint16_t scale(int a, int b) const { return prices_.scale(a, b); }
+  /// PairPrices::setScale()
   void setScale(int a, int b, std::uint16_t factor) { prices_.setScale(a, b, factor); }
+  /// PairPrices::price()
   std::uint32_t price(int a, int b, std::uint16_t weight) const
   {
     return prices_.price(a, b, weight);
@@ -89,6 +99,7 @@ public:
 
   /** \brief Weight of the edge from (x, y) to (x + 1, y); NO_EDGE for none. */
   std::uint16_t rightEdge(int x, int y) const { return right_[colour(x, y)][at(x, y)]; }
+  /// Set the weight of the edge from (x, y) to (x + 1, y); NO_EDGE for none.
   void setRightEdge(int x, int y, std::uint16_t w)
   {
     right_[colour(x, y)][at(x, y)] = w;
@@ -96,6 +107,7 @@ public:
 
   /** \brief Weight of the edge from (x, y) to (x, y + 1); NO_EDGE for none. */
   std::uint16_t downEdge(int x, int y) const { return down_[colour(x, y)][at(x, y)]; }
+  /// Set the weight of the edge from (x, y) to (x, y + 1); NO_EDGE for none.
   void setDownEdge(int x, int y, std::uint16_t w) { down_[colour(x, y)][at(x, y)] = w; }
 
   /** \brief Energy of a labelling (row by row, values below labels()). O(sites) */
@@ -105,14 +117,17 @@ public:
 
   /// \name Raw rows of one colour, for the kernels
   ///@{
+  /** \brief Data costs of label \a l in row \a y. */
   const std::uint16_t* dataRow(int colour, int y, int l) const
   {
     return data_[colour].data() + layout_.rowStart(y, labels(), l);
   }
+  /// Weights of the edges to the right in row \a y.
   const std::uint16_t* rightRow(int colour, int y) const
   {
     return right_[colour].data() + layout_.rowStart(y);
   }
+  /// Weights of the edges below row \a y.
   const std::uint16_t* downRow(int colour, int y) const
   {
     return down_[colour].data() + layout_.rowStart(y);

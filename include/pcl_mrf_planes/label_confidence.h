@@ -38,7 +38,9 @@ namespace pcl_mrf_planes {
  *
  * Measured against ground truth in doc/accuracy.md. O(points * labels near a point); of
  * Method::PAPER O(points * labels * iterations).
+ * \param[in] points the cloud in the sensor frame
  * \param[in] result of segmentPlanes() with the same points and parameters
+ * \param[in] parameters those of the segmentation; threads as well
  */
 PCL_MRF_PLANES_EXPORT std::vector<float>
 labelConfidence(const OrganizedPoints& points, const PlaneSegmentation& result,

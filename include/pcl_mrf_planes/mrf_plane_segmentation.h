@@ -65,36 +65,57 @@ namespace pcl {
 template <typename PointT>
 class PCL_MRF_PLANES_EXPORT MRFPlaneSegmentation : public PCLBase<PointT> {
 public:
+  /// Shared pointer to this class, as PCL's classes have it.
   using Ptr = shared_ptr<MRFPlaneSegmentation<PointT>>;
+  /// The same to one that is not changed.
   using ConstPtr = shared_ptr<const MRFPlaneSegmentation<PointT>>;
 
   using typename PCLBase<PointT>::PointCloud;
   using typename PCLBase<PointT>::PointCloudPtr;
   using typename PCLBase<PointT>::PointCloudConstPtr;
+  /// A label for each point.
   using PointCloudL = pcl::PointCloud<pcl::Label>;
+  /// Shared pointer to one.
   using PointCloudLPtr = PointCloudL::Ptr;
 
+  /// All values that a result depends on.
   using Parameters = pcl_mrf_planes::Parameters;
+  /// Named sets of values.
   using Profile = pcl_mrf_planes::Profile;
+  /// How a tile's plane is fitted; Method::PAPER.
   using PlaneFit = pcl_mrf_planes::PlaneFit;
+  /// Price of two labels side by side; Method::PAPER.
   using Smoothness = pcl_mrf_planes::Smoothness;
+  /// What counts as depth.
   using DepthMeasure = pcl_mrf_planes::DepthMeasure;
+  /// Noise of the sensor over depth.
   using NoiseModel = pcl_mrf_planes::NoiseModel;
+  /// Counts, times and energies of the last run.
   using Report = pcl_mrf_planes::SegmentationReport;
+  /// Mean of each plane's points, (x, y, z, 1), metres.
   using Centroids =
       std::vector<Eigen::Vector4f, Eigen::aligned_allocator<Eigen::Vector4f>>;
+  /// Covariance of each plane's points, square metres.
   using Covariances =
       std::vector<Eigen::Matrix3f, Eigen::aligned_allocator<Eigen::Matrix3f>>;
+  /// PCL's regions: statistics, coefficients and contour.
   using PlanarRegions =
       std::vector<PlanarRegion<PointT>, Eigen::aligned_allocator<PlanarRegion<PointT>>>;
 
+  /// PCL's polygons: contour and coefficients.
   using PlanarPolygons = std::vector<PlanarPolygon<PointT>,
                                      Eigen::aligned_allocator<PlanarPolygon<PointT>>>;
+  /// Covariance of the parameters of a plane.
   using PlaneUncertainty = pcl_mrf_planes::PlaneUncertainty;
+  /// Patches with their holes, and the convex hull, of a region.
   using RegionOutline = pcl_mrf_planes::RegionOutline;
+  /// What outlines leave out.
   using OutlineParameters = pcl_mrf_planes::OutlineParameters;
+  /// Where two planes meet.
   using PlaneCrease = pcl_mrf_planes::PlaneCrease;
+  /// What counts as a crease.
   using CreaseParameters = pcl_mrf_planes::CreaseParameters;
+  /// Which way points move onto their planes.
   using ProjectionWay = pcl_mrf_planes::ProjectionWay;
 
   MRFPlaneSegmentation() = default;
@@ -102,7 +123,9 @@ public:
 
   /// \name Parameters; units, ranges and effects stand at pcl_mrf_planes::Parameters
   ///@{
+  /** \brief All values at once; one out of its range is reported by segment(). */
   void setParameters(const Parameters& parameters) { parameters_ = parameters; }
+  /// All values in use.
   const Parameters& getParameters() const { return parameters_; }
 
   /** \brief Take all the values of a named profile. */
@@ -114,11 +137,14 @@ public:
     parameters_.tile_width = width;
     parameters_.tile_height = height;
   }
+  /// Points; see setTileSize().
   int getTileWidth() const { return parameters_.tile_width; }
+  /// Points; see setTileSize().
   int getTileHeight() const { return parameters_.tile_height; }
 
   /** \brief Least-squares fit of a tile's plane, equation (3). */
   void setPlaneFit(PlaneFit fit) { parameters_.fit = fit; }
+  /// See setPlaneFit().
   PlaneFit getPlaneFit() const { return parameters_.fit; }
 
   /** \brief Sensor noise sigma(z) that distances are held against; the default profile
@@ -128,6 +154,7 @@ public:
     parameters_.noise = noise;
     parameters_.adaptive.estimate_noise = false;
   }
+  /// What setNoiseModel() or the profile set; not what was estimated.
   const NoiseModel& getNoiseModel() const { return parameters_.noise; }
 
   /** \brief How many sigma a tile's root mean square distance may reach. */
@@ -135,46 +162,57 @@ public:
   {
     parameters_.noise_multiplier = multiplier;
   }
+  /// Sigmas; see setNoiseMultiplier().
   double getNoiseMultiplier() const { return parameters_.noise_multiplier; }
 
   /** \brief Share of a tile's points that must be valid, 0 to 1. */
   void setMinValidShare(double share) { parameters_.min_valid_share = share; }
+  /// 0 to 1; see setMinValidShare().
   double getMinValidShare() const { return parameters_.min_valid_share; }
 
   /** \brief What counts as depth: z of the sensor frame or the range. */
   void setDepthMeasure(DepthMeasure measure) { parameters_.depth_measure = measure; }
+  /// As it was set, AUTO if nobody did; see setDepthMeasure().
   DepthMeasure getDepthMeasure() const { return parameters_.depth_measure; }
 
   /** \brief Weight beta of the offsets' difference in equations (5) and (9), 1/m. */
   void setBeta(double beta) { parameters_.beta = beta; }
+  /// 1/m; see setBeta().
   double getBeta() const { return parameters_.beta; }
 
   /** \brief Similarity threshold v of equation (5). */
   void setMergeThreshold(double threshold) { parameters_.merge_threshold = threshold; }
+  /// See setMergeThreshold().
   double getMergeThreshold() const { return parameters_.merge_threshold; }
 
   /** \brief Most label planes that are kept, the best supported first. */
   void setMaxPlanes(int count) { parameters_.max_planes = count; }
+  /// See setMaxPlanes().
   int getMaxPlanes() const { return parameters_.max_planes; }
 
   /** \brief Weight lambda of the data term, equation (7), 1/m. */
   void setLambda(double lambda) { parameters_.lambda = lambda; }
+  /// 1/m; see setLambda().
   double getLambda() const { return parameters_.lambda; }
 
   /** \brief Distance tau at which the data term (7) is cut off, metres. */
   void setTau(double tau) { parameters_.tau = tau; }
+  /// Metres; see setTau().
   double getTau() const { return parameters_.tau; }
 
   /** \brief Smoothness term: (8), (9), (10) or the variant in the text. */
   void setSmoothness(Smoothness smoothness) { parameters_.smoothness = smoothness; }
+  /// See setSmoothness().
   Smoothness getSmoothness() const { return parameters_.smoothness; }
 
   /** \brief Price gamma of a label change for Smoothness::POTTS, equation (8). */
   void setGamma(double gamma) { parameters_.gamma = gamma; }
+  /// See setGamma().
   double getGamma() const { return parameters_.gamma; }
 
   /** \brief Checkerboard iterations of belief propagation, section IV-D. */
   void setIterations(int iterations) { parameters_.iterations = iterations; }
+  /// See setIterations().
   int getIterations() const { return parameters_.iterations; }
 
   /** \brief Stop once no message changes by more than this; negative: never. */
@@ -182,22 +220,27 @@ public:
   {
     parameters_.convergence_tolerance = tolerance;
   }
+  /// Energy units; see setConvergenceTolerance().
   double getConvergenceTolerance() const { return parameters_.convergence_tolerance; }
 
   /** \brief Record the energy of every iteration in the report (slower). */
   void setComputeEnergy(bool compute) { parameters_.compute_energy = compute; }
+  /// See setComputeEnergy().
   bool getComputeEnergy() const { return parameters_.compute_energy; }
 
   /** \brief Planes with fewer points than this are dropped. */
   void setMinInliers(int min_inliers) { parameters_.min_inliers = min_inliers; }
+  /// Points; see setMinInliers().
   int getMinInliers() const { return parameters_.min_inliers; }
 
   /** \brief Planes with a smaller area than this, in square metres, are dropped. */
   void setMinArea(double square_metres) { parameters_.min_area = square_metres; }
+  /// Square metres; see setMinArea().
   double getMinArea() const { return parameters_.min_area; }
 
   /** \brief Default profile: whether coplanar parts that do not touch share a label. */
   void setJoinCoplanar(bool join) { parameters_.adaptive.join_coplanar = join; }
+  /// See setJoinCoplanar().
   bool getJoinCoplanar() const { return parameters_.adaptive.join_coplanar; }
 
   /** \brief Threads to use; 0: as many as the machine has cores. */
@@ -205,28 +248,34 @@ public:
   {
     parameters_.number_of_threads = threads;
   }
+  /// As it was set, 0 for all cores; see setNumberOfThreads().
   unsigned int getNumberOfThreads() const { return parameters_.number_of_threads; }
 
   /** \brief Move the contours of planar regions onto their planes. */
   void setProjectPoints(bool project) { project_points_ = project; }
+  /// See setProjectPoints().
   bool getProjectPoints() const { return project_points_; }
 
   /** \brief Whether the connected patches of a plane are regions of their own, with the
    * same coefficients; min_inliers and min_area then hold for patches. */
   void setSeparatePatches(bool separate) { separate_patches_ = separate; }
+  /// See setSeparatePatches().
   bool getSeparatePatches() const { return separate_patches_; }
 
   /** \brief Whether the contours of planar regions are corners of polygons, simplified to
    * the tolerance of the outlines, on the plane, in place of all points of the border. */
   void setSimplifyContours(bool simplify) { simplify_contours_ = simplify; }
+  /// See setSimplifyContours().
   bool getSimplifyContours() const { return simplify_contours_; }
 
   /** \brief Tolerance of outlines, and what they leave out. */
   void setOutlineParameters(const OutlineParameters& outline) { outline_ = outline; }
+  /// See setOutlineParameters().
   const OutlineParameters& getOutlineParameters() const { return outline_; }
 
   /** \brief What counts as a crease. */
   void setCreaseParameters(const CreaseParameters& crease) { crease_ = crease; }
+  /// See setCreaseParameters().
   const CreaseParameters& getCreaseParameters() const { return crease_; }
   ///@}
 

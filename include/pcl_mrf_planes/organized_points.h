@@ -22,9 +22,11 @@ namespace pcl_mrf_planes {
  * coordinates 0 and valid 0: they add nothing to a sum and are no sites of the field.
  */
 struct PCL_MRF_PLANES_EXPORT OrganizedPoints {
-  int width = 0;
-  int height = 0;
-  std::vector<float> x, y, z; ///< metres
+  int width = 0;        ///< columns of the image
+  int height = 0;       ///< rows of the image
+  std::vector<float> x; ///< metres, sensor frame
+  std::vector<float> y; ///< metres, sensor frame
+  std::vector<float> z; ///< metres, sensor frame: depth for cameras
   std::vector<std::uint8_t>
       valid; ///< 1: a measured point inside the region of interest
   /// How depth is measured; never AUTO once resolveDepthMeasure() was called.

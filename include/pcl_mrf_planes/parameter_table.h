@@ -24,22 +24,27 @@ enum class ParameterUse {
  * among the choices, that of a switch is 0 or 1.
  */
 struct PCL_MRF_PLANES_EXPORT ParameterEntry {
+  /// Which value of Parameters or of its AdaptiveParameters.
   using Member = std::variant<int Parameters::*, double Parameters::*,
                               unsigned int Parameters::*, bool Parameters::*,
                               PlaneFit Parameters::*, DepthMeasure Parameters::*,
                               Smoothness Parameters::*, int AdaptiveParameters::*,
                               double AdaptiveParameters::*, bool AdaptiveParameters::*>;
 
-  std::string name; ///< of the member
-  Member member;
-  double low, high;             ///< what validate() lets pass, both ends included
-  double usual_low, usual_high; ///< what is worth trying, as the ends of a slider
-  std::string unit; ///< in capitals, POINTS, METRES, SHARE (0 to 1), COUNT, ...
-  std::string help; ///< effect
-  ParameterUse use = ParameterUse::ALL;
+  std::string name;  ///< of the member
+  Member member;     ///< where the value is
+  double low;        ///< least value that validate() lets pass
+  double high;       ///< largest value that validate() lets pass
+  double usual_low;  ///< least value that is worth trying, as the end of a slider
+  double usual_high; ///< largest value that is worth trying
+  std::string unit;  ///< in capitals, POINTS, METRES, SHARE (0 to 1), COUNT, ...
+  std::string help;  ///< effect
+  ParameterUse use = ParameterUse::ALL;  ///< by which method
   std::vector<std::string> choices = {}; ///< their names; empty for numbers
 
-  bool isWhole() const; ///< numbers without a fraction, choices among them
+  /// Numbers without a fraction, choices among them.
+  bool isWhole() const;
+  /// Whether the method takes the value.
   bool isUsedBy(Method method) const;
 
   /** \brief The value, as a number. */

@@ -49,7 +49,7 @@ enum class Profile {
  * Profile::PAPER (section V of the paper where it states one).
  */
 struct PCL_MRF_PLANES_EXPORT Parameters {
-  Method method = Method::ADAPTIVE;
+  Method method = Method::ADAPTIVE; ///< the chain of stages
 
   /** \brief Values of Method::ADAPTIVE, which takes of those below depth_measure,
    * min_inliers and min_area, and noise if it is not to estimate it. */
@@ -57,13 +57,14 @@ struct PCL_MRF_PLANES_EXPORT Parameters {
 
   /// \name Planar surface detection, section IV-A
   ///@{
-  int tile_width = 40;  ///< points, 2 to 4096; section V
-  int tile_height = 40; ///< points, 2 to 4096; section V
-  PlaneFit fit = PlaneFit::ALGEBRAIC;
+  int tile_width = 40;                ///< points, 2 to 4096; section V
+  int tile_height = 40;               ///< points, 2 to 4096; section V
+  PlaneFit fit = PlaneFit::ALGEBRAIC; ///< of a tile, (3) and (4)
   /// A tile is kept when its rms distance is at most noise_multiplier * noise.sigma(z).
   NoiseModel noise = NoiseModel::kinect();
   double noise_multiplier = 1.0; ///< > 0; larger keeps more tiles
   double min_valid_share = 0.5; ///< share of a tile's points that must be valid, 0 to 1
+  /// What counts as depth, for noise and for the energy.
   DepthMeasure depth_measure = DepthMeasure::AUTO;
   ///@}
 
@@ -78,7 +79,7 @@ struct PCL_MRF_PLANES_EXPORT Parameters {
   ///@{
   double lambda = 0.2; ///< weight of the data term (7), 1/m, >= 0
   double tau = 0.5;    ///< distance at which (7) is cut off, metres, > 0
-  Smoothness smoothness = Smoothness::HYBRID;
+  Smoothness smoothness = Smoothness::HYBRID; ///< (8), (9) or (10)
   double gamma = 0.15; ///< price of a label change for Smoothness::POTTS, (8), >= 0
   ///@}
 

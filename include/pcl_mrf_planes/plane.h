@@ -42,6 +42,7 @@ struct PCL_MRF_PLANES_EXPORT Plane {
 };
 
 /** \brief Dissimilarity of two planes, equations (5) and (9); >= 0, 0 for equal planes.
+ * \param[in] p, q planes turned towards the sensor
  * \param[in] beta weight of the difference of the offsets, 1/m
  */
 inline double dissimilarity(const Plane& p, const Plane& q, double beta)

@@ -11,14 +11,14 @@ namespace pcl_mrf_planes {
 
 /** \brief A plane model as the merging sees it. */
 struct PCL_MRF_PLANES_EXPORT PlaneModel {
-  Plane plane;
+  Plane plane;         ///< turned towards the sensor
   double error = 0.0;  ///< rms distance of the tile that the plane comes from, metres
   double points = 0.0; ///< valid points of all the tiles that refer to it
 };
 
 /** \brief The L label planes and which of them each plane refers to. */
 struct PCL_MRF_PLANES_EXPORT PlaneClusters {
-  static constexpr int NONE = -1;
+  static constexpr int NONE = -1; ///< in assignment: refers to no plane
   /// Best supported first; ties by error, then by coefficients.
   std::vector<PlaneModel> planes;
   /// For every input plane its index in planes, or NONE.

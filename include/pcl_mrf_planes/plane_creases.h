@@ -19,12 +19,13 @@ namespace pcl_mrf_planes {
 struct PCL_MRF_PLANES_EXPORT PlaneCrease {
   std::size_t first = 0;  ///< index of one region
   std::size_t second = 0; ///< of the other, larger than first
-  Eigen::Vector3d start;  ///< end points, metres, sensor frame, on both planes
-  Eigen::Vector3d end;
-  double angle = 0.0;  ///< between the normals, radians, 0 to pi
-  bool convex = false; ///< an edge of a box; false: a corner of a room
-  int points = 0;      ///< points of the border that lie on it
+  Eigen::Vector3d start;  ///< one end, metres, sensor frame, on both planes
+  Eigen::Vector3d end;    ///< the other end
+  double angle = 0.0;     ///< between the normals, radians, 0 to pi
+  bool convex = false;    ///< an edge of a box; false: a corner of a room
+  int points = 0;         ///< points of the border that lie on it
 
+  /// Metres.
   double length() const { return (end - start).norm(); }
 };
 
@@ -68,6 +69,8 @@ PCL_MRF_PLANES_EXPORT double normalAngle(const Plane& a, const Plane& b);
 PCL_MRF_PLANES_EXPORT double planeDistance(const PlaneRegion& a, const PlaneRegion& b);
 
 /** \brief The line in which two planes meet.
+ * \param[in] a, b planes of one frame
+ * \param[in] near any point of that frame, metres
  * \param[out] point the point of it nearest to \a near, metres
  * \param[out] direction of unit length
  * \return false for planes that are parallel to 1e-6

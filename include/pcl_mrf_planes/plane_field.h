@@ -46,13 +46,16 @@ public:
   /** \brief All the costs in 16-bit units at once. O(points * planes) */
   GridField toGridField() const { return GridField(*this); }
 
+  /// As in FieldRows.
   const CheckerboardLayout& layout() const override { return layout_; }
+  /// As in FieldRows.
   const PairPrices& prices() const override { return prices_; }
   void fillRow(int y, const FieldRow& row) const override;
 
   /** \brief 16-bit units in one unit of energy. */
   double unitsPerEnergy() const { return units_; }
 
+  /// The planes of the labels, in their order.
   const std::vector<Plane>& planes() const { return planes_; }
 
   /** \brief Truncated point-to-plane distance, equation (7), unrounded.

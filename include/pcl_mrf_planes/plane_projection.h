@@ -35,7 +35,10 @@ PCL_MRF_PLANES_EXPORT void projectOntoPlanes(const std::vector<PlaneRegion>& reg
 
 /** \brief projectPoint() for the points of some indices, of a cloud whose coordinates are
  * floats in memory: x, y, z of a point follow each other. O(indices)
+ * \param[in] plane its axes those of the points, its offset from \a origin
  * \param[in] origin where the plane has its origin, the sensor
+ * \param[in] way shortest, or along the ray from \a origin
+ * \param[in] indices of the points to move
  * \param[in] stride floats from a point to the next
  * \param[in,out] first x of the first point */
 PCL_MRF_PLANES_EXPORT void
@@ -43,6 +46,7 @@ projectPoints(const Plane& plane, const Eigen::Vector3d& origin, ProjectionWay w
               const std::vector<int>& indices, std::size_t stride, float* first);
 
 /** \brief Indices of the points that belong to no region, ascending. O(points)
+ * \param[in] points the cloud
  * \param[in] labels per point: 0 no plane
  * \param[in] invalid whether points that were not measured are among them */
 PCL_MRF_PLANES_EXPORT std::vector<int>

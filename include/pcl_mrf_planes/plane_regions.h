@@ -34,7 +34,10 @@ struct PCL_MRF_PLANES_EXPORT PlaneRegion {
  * along the viewing ray cancels, sampling density has no say.
  * O(points + planes)
  *
+ * \param[in] points the cloud in the sensor frame
+ * \param[in] planes the label planes
  * \param[in] labels index of a label plane for every valid point, or NO_PLANE
+ * \param[in] min_points, min_area what a region needs, >= 0
  */
 PCL_MRF_PLANES_EXPORT std::vector<PlaneRegion>
 gatherRegions(const OrganizedPoints& points, const std::vector<Plane>& planes,

@@ -22,8 +22,8 @@ namespace pcl_mrf_planes {
 struct PCL_MRF_PLANES_EXPORT SegmentationReport {
   std::size_t points = 0;       ///< points of the image
   std::size_t valid_points = 0; ///< measured points inside the region of interest
-  std::size_t tiles_tried = 0;
-  std::size_t tiles_kept = 0;
+  std::size_t tiles_tried = 0;  ///< tiles of the image, of all sizes
+  std::size_t tiles_kept = 0;   ///< those whose plane went on to the merging
   std::size_t planes_after_merging = 0; ///< L, the number of labels
   std::size_t planes = 0;               ///< planes that won points
   int iterations = 0;                   ///< belief propagation iterations done
@@ -35,6 +35,7 @@ struct PCL_MRF_PLANES_EXPORT SegmentationReport {
   /// MRFPlaneSegmentation puts its own "points" in front.
   std::vector<std::pair<std::string, double>> stage_ms;
 
+  /// Milliseconds of all stages together.
   double totalMs() const;
 
   /** \brief Fill in what follows from the points and the regions. */
@@ -52,7 +53,7 @@ struct PCL_MRF_PLANES_EXPORT PlaneSegmentation {
   std::vector<std::uint16_t> labels; ///< per point: 0 no plane, k regions[k - 1]
   TileImage tiles;                   ///< the image of planar fits
   PlaneClusters clusters;            ///< label planes and the tile-to-plane map
-  SegmentationReport report;
+  SegmentationReport report;         ///< counts, times, energies
   /// What labelConfidence() need not find anew; may be null.
   std::shared_ptr<const adaptive::BlockNoise> block_noise;
 };

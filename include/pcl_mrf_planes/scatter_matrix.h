@@ -17,9 +17,16 @@ namespace pcl_mrf_planes {
  * up to the sums of their union.
  */
 struct PCL_MRF_PLANES_EXPORT ScatterMatrix {
-  double n = 0.0;
-  double x = 0.0, y = 0.0, z = 0.0;
-  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  double n = 0.0;  ///< number of points
+  double x = 0.0;  ///< sum of x, metres
+  double y = 0.0;  ///< sum of y, metres
+  double z = 0.0;  ///< sum of z, metres
+  double xx = 0.0; ///< sum of x x, square metres
+  double xy = 0.0; ///< sum of x y, square metres
+  double xz = 0.0; ///< sum of x z, square metres
+  double yy = 0.0; ///< sum of y y, square metres
+  double yz = 0.0; ///< sum of y z, square metres
+  double zz = 0.0; ///< sum of z z, square metres
 
   /** \brief Add one point. */
   void add(double px, double py, double pz)

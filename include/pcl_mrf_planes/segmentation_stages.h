@@ -30,18 +30,20 @@ PCL_MRF_PLANES_EXPORT std::string stageName(Stage stage);
 
 /** \brief A tile that was looked at and what became of it. */
 struct PCL_MRF_PLANES_EXPORT StageTile {
-  static constexpr int NONE = -1;
-  int x = 0, y = 0;          ///< first point
-  int width = 0, height = 0; ///< points, those outside of the image left out
-  bool kept = false;         ///< a plane fits it
-  Plane plane;               ///< sensor frame; of tiles that are kept
-  double rms = 0.0;          ///< fit error: root mean square distance, metres
-  int merged = NONE;         ///< index among SegmentationStages::merged_planes, or NONE
+  static constexpr int NONE = -1; ///< of tiles that went to no plane
+  int x = 0;                      ///< column of the first point
+  int y = 0;                      ///< row of the first point
+  int width = 0;     ///< columns of points, those outside of the image left out
+  int height = 0;    ///< rows of points
+  bool kept = false; ///< a plane fits it
+  Plane plane;       ///< sensor frame; of tiles that are kept
+  double rms = 0.0;  ///< fit error: root mean square distance, metres
+  int merged = NONE; ///< index among SegmentationStages::merged_planes, or NONE
 };
 
 /** \brief The labels as they stand after a stage. */
 struct PCL_MRF_PLANES_EXPORT StageLabels {
-  Stage stage = Stage::FINAL;
+  Stage stage = Stage::FINAL;        ///< after which one
   int count = 0;                     ///< iterations, passes or rounds done, from 0
   std::vector<std::uint16_t> labels; ///< per point: 0 no plane, k planes[k - 1]
   std::vector<Plane> planes;         ///< sensor frame
@@ -52,7 +54,8 @@ struct PCL_MRF_PLANES_EXPORT StageLabels {
 
 /** \brief How a segmentation came about, to be looked at and taught. */
 struct PCL_MRF_PLANES_EXPORT SegmentationStages {
-  int width = 0, height = 0; ///< of all images of labels
+  int width = 0;  ///< columns of all images of labels
+  int height = 0; ///< rows of all images of labels
   /// Method::PAPER: all of the grid. Method::ADAPTIVE: those chosen, the largest first.
   std::vector<StageTile> tiles;
   std::vector<Plane> merged_planes; ///< sensor frame

@@ -12,8 +12,8 @@ namespace pcl_mrf_planes {
 /** \brief Where the sensor was in the frame of the cloud: p_cloud = rotation * p_sensor
  * + origin. */
 struct PCL_MRF_PLANES_EXPORT SensorPose {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< metres
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< of sensor to cloud
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();       ///< metres
 };
 
 /** \brief A point of an organized cloud and its place in the image. */

@@ -21,21 +21,22 @@ enum class TileState {
 
 /** \brief The plane of one tile: a pixel of the "image of planar fits". */
 struct PCL_MRF_PLANES_EXPORT TilePlane {
-  TileState state = TileState::TOO_FEW;
-  ScatterMatrix sums;
-  PlaneFitResult fit;
+  TileState state = TileState::TOO_FEW; ///< what became of it
+  ScatterMatrix sums;                   ///< of the tile's valid points
+  PlaneFitResult fit;                   ///< of tiles that are KEPT or BAD_FIT
   double depth = 0.0; ///< depth of the centroid in metres, where sigma is taken
 
+  /// Whether its plane goes on to the merging.
   bool kept() const { return state == TileState::KEPT; }
 };
 
 /** \brief The image of planar fits: tile (column, row) at row * columns + column. */
 struct PCL_MRF_PLANES_EXPORT TileImage {
-  int tile_width = 0;
-  int tile_height = 0;
-  int columns = 0;
-  int rows = 0;
-  std::vector<TilePlane> tiles;
+  int tile_width = 0;           ///< points
+  int tile_height = 0;          ///< points
+  int columns = 0;              ///< tiles beside each other
+  int rows = 0;                 ///< tiles below each other
+  std::vector<TilePlane> tiles; ///< row by row
 
   /** \brief Index of the tile that holds point (x, y). */
   std::size_t tileAt(int x, int y) const

@@ -12,8 +12,11 @@ pcl_mrf_plane_segmentation room.pcd out.pcd --models planes.json --overlay overl
 pcl_mrf_plane_evaluation room.gt.png out.pcd
 test -s planes.json
 test -s overlay.png
-for app in segmentation scene evaluation; do
+for app in segmentation scene evaluation viewer; do
   test -s "/usr/share/bash-completion/completions/pcl_mrf_plane_$app"
+  gzip -t "/usr/share/man/man1/pcl_mrf_plane_$app.1.gz"
+  "pcl_mrf_plane_$app" --help >help
+  grep -q -- --help help
 done
 ldconfig -p | grep -q 'libpcl_mrf_planes\.so\.' ||
   { echo "the trigger did not run ldconfig" >&2; exit 1; }

@@ -15,7 +15,11 @@ while read -r line; do
     { echo "README.md: not in the example's CMakeLists.txt: $line" >&2; exit 1; }
 done <<<"$readme_cmake"
 
-grep -oE '\]\(([^)#:]+)\)' README.md doc/*.md | sed -E 's/^([^:]+):\]\((.*)\)$/\1 \2/' |
+# Links, of the text only: code has brackets of its own.
+for page in README.md CONTRIBUTING.md doc/*.md; do
+  awk '/^```/ {inside = !inside} !inside' "$page" | grep -oE '\]\(([^)#:]+)\)' |
+    sed -E "s#^\]\((.*)\)\$#$page \1#" || true
+done |
   while read -r file target; do
     [ -e "$(dirname "$file")/$target" ] ||
       { echo "$file: link to $target leads nowhere" >&2; exit 1; }

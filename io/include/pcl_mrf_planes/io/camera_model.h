@@ -17,14 +17,14 @@ namespace pcl_mrf_planes::io {
  * ((u - cx) z / fx, (v - cy) z / fy, z): x right, y down, z forward.
  */
 struct PCL_MRF_PLANES_EXPORT CameraModel {
-  double fx = 0.0; ///< focal lengths, points
-  double fy = 0.0;
-  double cx = 0.0; ///< principal point, points from the centre of the first one
-  double cy = 0.0;
+  double fx = 0.0; ///< focal length across, points
+  double fy = 0.0; ///< focal length down, points
+  double cx = 0.0; ///< principal point, columns from the centre of the first point
+  double cy = 0.0; ///< the same in rows
   double depth_scale = 1000.0; ///< values per metre
   /// Where both are set, values are Kinect's disparities: metres = a / (b - value).
   double disparity_a = 0.0;
-  double disparity_b = 0.0;
+  double disparity_b = 0.0;                 ///< disparity at infinity
   std::vector<std::uint16_t> invalid = {0}; ///< values that mean "not measured"
   bool along_ray = false; ///< depth is the distance to the point, not its z
   ImageSize size;         ///< of the image that it was calibrated for; none: any
@@ -66,6 +66,7 @@ PCL_MRF_PLANES_EXPORT DepthMap toMetres(const Image16& values,
                                         const CameraModel& camera);
 
 /** \brief The organized cloud x, y, z that a camera sees; invalid points are NaN.
+ * \param[in] depth metres, NaN where nothing was measured
  * \param[in] camera fitted to the map */
 PCL_MRF_PLANES_EXPORT CloudFile cloudFromDepth(const DepthMap& depth,
                                                const CameraModel& camera);

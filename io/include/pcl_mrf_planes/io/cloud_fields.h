@@ -25,13 +25,16 @@ PCL_MRF_PLANES_EXPORT std::vector<Colour> colours(const CloudFile& file);
 
 /** \brief The same cloud with a last field label (uint32); a field of that name is
  * dropped, and so is padding.
+ * \param[in] file the cloud
  * \param[in] labels a label for each point
  */
 PCL_MRF_PLANES_EXPORT CloudFile withLabels(const CloudFile& file,
                                            const pcl::PointCloud<pcl::Label>& labels);
 
 /** \brief The same cloud with a last field confidence (float); a field of that name is
- * dropped, and so is padding. \param[in] confidence a number for each point */
+ * dropped, and so is padding.
+ * \param[in] file the cloud
+ * \param[in] confidence a number for each point */
 PCL_MRF_PLANES_EXPORT CloudFile withConfidence(const CloudFile& file,
                                                const std::vector<float>& confidence);
 

@@ -21,10 +21,12 @@ PCL_MRF_PLANES_EXPORT const char* formatName(PcdFormat format);
 
 /** \brief Columns and rows; zero by zero: not stated. */
 struct PCL_MRF_PLANES_EXPORT ImageSize {
-  int width = 0;
-  int height = 0;
+  int width = 0;  ///< columns
+  int height = 0; ///< rows
 
+  /// Whether there are columns and rows.
   bool stated() const { return width > 0 && height > 0; }
+  /// Their product.
   std::size_t points() const
   {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -33,8 +35,9 @@ struct PCL_MRF_PLANES_EXPORT ImageSize {
 
 /** \brief An organized cloud with all its fields, as it stands in a file. */
 struct PCL_MRF_PLANES_EXPORT CloudFile {
-  pcl::PCLPointCloud2 cloud;
+  pcl::PCLPointCloud2 cloud; ///< all fields; coordinates in metres
   Eigen::Vector4f origin = Eigen::Vector4f::Zero(); ///< of the sensor, metres
+  /// Of the sensor: turns its axes into those of the cloud.
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
   PcdFormat format = PcdFormat::BINARY; ///< as it was read
 };

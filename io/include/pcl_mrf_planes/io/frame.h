@@ -24,7 +24,7 @@ struct PCL_MRF_PLANES_EXPORT ReadOptions {
 
 /** \brief One organized cloud, and what the file or its data set has beside it. */
 struct PCL_MRF_PLANES_EXPORT Frame {
-  CloudFile file;
+  CloudFile file;                    ///< the cloud with its fields and sensor pose
   std::vector<Colour> colours;       ///< for pictures, one for each point; or none
   std::vector<std::uint16_t> truth;  ///< plane of each point, 0 none; or empty
   std::optional<CameraModel> camera; ///< of a depth image
