@@ -102,6 +102,7 @@ oneapi::tbb::task_arena& helpersOfThisThread(int count)
   thread_local std::unique_ptr<oneapi::tbb::task_arena> arena;
   if (!arena || arena->max_concurrency() != count)
     arena = std::make_unique<oneapi::tbb::task_arena>(count, 0U);
+  // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDelete): it takes arena for a local variable
   return *arena;
 }
 
