@@ -36,10 +36,11 @@ Cloud::Ptr withMargins(const Cloud& cloud)
   wide->sensor_origin_ = cloud.sensor_origin_;
   wide->sensor_orientation_ = cloud.sensor_orientation_;
   wide->is_dense = cloud.is_dense;
-  for (std::uint32_t row = 0; row < wide->height; ++row)
-    for (std::uint32_t column = 0; column < wide->width; ++column)
-      wide->at(column, row) =
-          cloud.at((column + cloud.width - margin) % cloud.width, row);
+  const auto width = static_cast<int>(cloud.width);
+  const int first = width - static_cast<int>(margin);
+  for (int row = 0; row < static_cast<int>(wide->height); ++row)
+    for (int column = 0; column < static_cast<int>(wide->width); ++column)
+      wide->at(column, row) = cloud.at((column + first) % width, row);
   return wide;
 }
 
