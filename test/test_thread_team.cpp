@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <malloc.h>
+
 #include <atomic>
+#include <chrono>
+#include <cstddef>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -111,6 +115,31 @@ TEST(ThreadTeam, TeamsOfSeveralThreadsDoNotMeet)
     });
   for (std::thread& maker : makers)
     maker.join();
+}
+
+/// Bytes that are allocated now; 0 where another allocator is in place (sanitizers).
+std::size_t allocated()
+{
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+TEST(ThreadTeam, ThreadsThatEndLeaveNothingBehind)
+{
+  const auto runInThreads = [](int threads) {
+    for (int k = 0; k < threads; ++k)
+      std::thread([] {
+        const ThreadTeam team(2);
+        expectEachOnce(30);
+      }).join();
+  };
+  runInThreads(500);
+  const std::size_t before = allocated();
+  runInThreads(3000);
+  // Helpers that come late hold what they are about to look at.
+  for (int k = 0; k < 100 && allocated() > before + 20000; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_LE(allocated(), before + 20000);
 }
 
 TEST(Bands, CoverEveryRowOnceInOrder)
