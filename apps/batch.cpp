@@ -153,6 +153,7 @@ int runBatch(const Options& options)
   createFolder(options.batch.output_folder);
   takeInterruptions(OnInterruption::FINISH);
   std::vector<FrameOutcome> outcomes;
+  outcomes.reserve(frames.size());
   for (const io::FrameSource& frame : frames)
     outcomes.push_back(outcomeFor(frame));
   const auto start = std::chrono::steady_clock::now();

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <iostream>
 
 namespace pcl_mrf_planes::apps {
@@ -16,7 +17,7 @@ constexpr std::size_t BAR = 30; // characters
 /// 12 s, 3 min 05 s, 2 h 07 min
 std::string duration(double seconds)
 {
-  const auto all = static_cast<long>(seconds + 0.5);
+  const auto all = std::lround(seconds);
   const auto two = [](long number) {
     return (number < 10 ? "0" : "") + std::to_string(number);
   };

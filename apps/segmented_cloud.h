@@ -38,6 +38,6 @@ struct SegmentedCloud {
  */
 SegmentedCloud segmentCloud(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& cloud,
                             const Parameters& parameters, int repeat,
-                            const RegionOptions& regions = {});
+                            const RegionOptions& region_options = {});
 
 } // namespace pcl_mrf_planes::apps

@@ -62,7 +62,8 @@ void paintTile(const StageTile& tile, double large, Picture& picture)
   const Colour colour = colourFromHue(GREEN * (1.0 - share), 0.8, 0.5);
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      Colour& pixel = picture.pixels[static_cast<std::size_t>(y * picture.width + x)];
+      const int i = y * picture.width + x;
+      Colour& pixel = picture.pixels[static_cast<std::size_t>(i)];
       const bool border = x == tile.x || y == tile.y;
       for (std::size_t c = 0; c < colour.size(); ++c)
         pixel[c] = static_cast<std::uint8_t>(

@@ -29,6 +29,13 @@ std::uint32_t marginOf(const Cloud& cloud)
   return std::min(cloud.width, WIDEST_MARGIN);
 }
 
+/// PCL's own at() takes signed numbers.
+template <typename AnyCloud>
+auto& pointAt(AnyCloud& cloud, std::uint32_t column, std::uint32_t row)
+{
+  return cloud[std::size_t{row} * cloud.width + column];
+}
+
 Cloud::Ptr withMargins(const Cloud& cloud)
 {
   const std::uint32_t margin = marginOf(cloud);
@@ -38,8 +45,8 @@ Cloud::Ptr withMargins(const Cloud& cloud)
   wide->is_dense = cloud.is_dense;
   for (std::uint32_t row = 0; row < wide->height; ++row)
     for (std::uint32_t column = 0; column < wide->width; ++column)
-      wide->at(column, row) =
-          cloud.at((column + cloud.width - margin) % cloud.width, row);
+      pointAt(*wide, column, row) =
+          pointAt(cloud, (column + cloud.width - margin) % cloud.width, row);
   return wide;
 }
 
@@ -78,8 +85,8 @@ SameLabels joinAcrossSeam(const Labels& wide, std::size_t planes, std::uint32_t 
       const bool left = i < margin;
       const std::uint32_t column = left ? i : i + width;
       const std::uint32_t repeated = left ? column + width : column - width;
-      const std::uint32_t a = wide.at(repeated, row).label;
-      const std::uint32_t b = wide.at(column, row).label;
+      const std::uint32_t a = pointAt(wide, repeated, row).label;
+      const std::uint32_t b = pointAt(wide, column, row).label;
       ++of_scan[a];
       ++of_margin[b];
       ++both[{a, b}];
@@ -102,8 +109,8 @@ OrganizedPoints closedScan(const Cloud& cloud)
   points.resize(static_cast<int>(cloud.width) + 1, static_cast<int>(cloud.height));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto column = static_cast<std::uint32_t>(i % (cloud.width + 1));
-    const auto& p = cloud.at(column % cloud.width,
-                             static_cast<std::uint32_t>(i / (cloud.width + 1)));
+    const auto& p = pointAt(cloud, column % cloud.width,
+                            static_cast<std::uint32_t>(i / (cloud.width + 1)));
     points.set(i, p.x, p.y, p.z);
   }
   return points;
@@ -123,8 +130,7 @@ public:
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto column = static_cast<std::uint32_t>(i % (cloud.width + 1));
       const std::uint32_t label =
-          wide.labels
-              .at(margin + column % cloud.width,
+          pointAt(wide.labels, margin + column % cloud.width,
                   static_cast<std::uint32_t>(i / (cloud.width + 1)))
               .label;
       if (label == 0 || points_.valid[i] == 0)

@@ -8,8 +8,10 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace pcl_mrf_planes {
 
@@ -96,13 +98,81 @@ namespace {
 
 thread_local ThreadTeam* team_of_this_thread = nullptr;
 
-/// Where helpers come from, kept for the next team.
-oneapi::tbb::task_arena& helpersOfThisThread(int count)
+using Arena = oneapi::tbb::task_arena;
+
+/// Where helpers come from, of threads that have ended, for those that follow: an arena that
+/// is destroyed loses the tasks that no helper has taken yet, and the memory of them.
+class SpareArenas {
+public:
+  std::unique_ptr<Arena> take(int count)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto spare =
+        std::find_if(arenas_.begin(), arenas_.end(), [count](const auto& arena) {
+          return arena->max_concurrency() == count;
+        });
+    if (spare == arenas_.end())
+      return std::make_unique<Arena>(count, 0U);
+    std::unique_ptr<Arena> arena = std::move(*spare);
+    arenas_.erase(spare);
+    return arena;
+  }
+
+  void keep(std::unique_ptr<Arena> arena)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    arenas_.push_back(std::move(arena));
+  }
+
+private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Arena>> arenas_;
+};
+
+/// Never destroyed: threads may end after everything else.
+SpareArenas& spareArenas()
 {
-  thread_local std::unique_ptr<oneapi::tbb::task_arena> arena;
-  if (!arena || arena->max_concurrency() != count)
-    arena = std::make_unique<oneapi::tbb::task_arena>(count, 0U);
-  return *arena;
+  static SpareArenas& spare = *new SpareArenas;
+  return spare;
+}
+
+/// The arena of a thread, kept for its next team.
+class OwnArena {
+public:
+  OwnArena() = default;
+  OwnArena(const OwnArena&) = delete;
+  OwnArena& operator=(const OwnArena&) = delete;
+  ~OwnArena() { leave(); }
+
+  Arena& of(int count)
+  {
+    if (!arena_ || arena_->max_concurrency() != count) {
+      leave();
+      arena_ = spareArenas().take(count);
+    }
+    return *arena_;
+  }
+
+private:
+  void leave() noexcept
+  {
+    if (!arena_)
+      return;
+    try {
+      spareArenas().keep(std::move(arena_));
+    }
+    catch (...) { // no memory to keep it
+      arena_.reset();
+    }
+  }
+
+  std::unique_ptr<Arena> arena_;
+};
+
+Arena& helpersOfThisThread(int count)
+{
+  thread_local OwnArena own;
+  return own.of(count);
 }
 
 } // namespace

@@ -10,12 +10,15 @@
 
 #include <gtest/gtest.h>
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic" // PCL's macro has structs without names
 struct EIGEN_ALIGN16 OwnPoint {
   PCL_ADD_POINT4D
   double time;
   std::uint16_t ring;
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
+#pragma GCC diagnostic pop
 
 namespace pcl_mrf_planes {
 namespace {

@@ -299,5 +299,34 @@ TEST(ParameterTableTest, ChoicesPrintTheirNames)
   EXPECT_EQ(findParameter("join_coplanar")->print(p), "false");
 }
 
+TEST(ParameterTableTest, NumbersPrintTheShortestThatReadsBack)
+{
+  const ParameterEntry* tau = findParameter("tau");
+  Parameters p;
+  for (const double value : {0.25, 0.1, 1e-6, 1.0 / 3.0, 0.1 + 0.2}) {
+    tau->set(p, value);
+    EXPECT_EQ(std::stod(tau->print(p)), value) << tau->print(p);
+  }
+  tau->set(p, 0.1);
+  EXPECT_EQ(tau->print(p), "0.1");
+  const ParameterEntry* points = findParameter("min_inliers");
+  points->set(p, 250.9);
+  EXPECT_EQ(points->print(p), "250") << "whole numbers have no fraction";
+}
+
+TEST(ParameterTableTest, KnowsWhatIsWholeAndWhoUsesIt)
+{
+  for (const char* name : {"min_inliers", "levels", "smoothness", "join_coplanar"})
+    EXPECT_TRUE(findParameter(name)->isWhole()) << name;
+  for (const char* name : {"tau", "min_area", "min_sigma"})
+    EXPECT_FALSE(findParameter(name)->isWhole()) << name;
+  EXPECT_TRUE(findParameter("tau")->isUsedBy(Method::PAPER));
+  EXPECT_FALSE(findParameter("tau")->isUsedBy(Method::ADAPTIVE));
+  EXPECT_FALSE(findParameter("levels")->isUsedBy(Method::PAPER));
+  EXPECT_TRUE(findParameter("levels")->isUsedBy(Method::ADAPTIVE));
+  EXPECT_TRUE(findParameter("min_inliers")->isUsedBy(Method::PAPER));
+  EXPECT_TRUE(findParameter("min_inliers")->isUsedBy(Method::ADAPTIVE));
+}
+
 } // namespace
 } // namespace pcl_mrf_planes

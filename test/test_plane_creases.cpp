@@ -246,6 +246,14 @@ TEST(CreaseParametersTest, WhatCannotBeIsRefused)
   parameters = {};
   parameters.min_angle = 2;
   EXPECT_FALSE(parameters.validate().empty());
+  parameters.min_angle = -0.1;
+  EXPECT_NE(parameters.validate().find("angle"), std::string::npos);
+  parameters = {};
+  parameters.max_gap = 0;
+  EXPECT_NE(parameters.validate().find("gap"), std::string::npos);
+  parameters = {};
+  parameters.reach = -1;
+  EXPECT_NE(parameters.validate().find("reach"), std::string::npos);
   parameters = {};
   parameters.min_points = 0;
   EXPECT_FALSE(parameters.validate().empty());

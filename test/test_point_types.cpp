@@ -16,7 +16,7 @@ template <typename PointT>
 class PointTypeTest : public testing::Test {};
 
 using PointTypes = testing::Types<BOOST_PP_SEQ_ENUM(PCL_XYZ_POINT_TYPES)>;
-TYPED_TEST_SUITE(PointTypeTest, PointTypes);
+TYPED_TEST_SUITE(PointTypeTest, PointTypes, ); // clang++ wants the third argument
 
 TYPED_TEST(PointTypeTest, GivesTheLabelsOfPlainPoints)
 {

@@ -375,6 +375,35 @@ TEST(OutlineParametersTest, WhatCannotBeIsRefused)
   parameters = {};
   parameters.min_hole_area = -1;
   EXPECT_FALSE(parameters.validate().empty());
+  parameters = {};
+  parameters.min_area = std::nan("");
+  EXPECT_NE(parameters.validate().find("areas"), std::string::npos);
+  parameters = {};
+  parameters.min_points = -1;
+  EXPECT_NE(parameters.validate().find("points"), std::string::npos);
+}
+
+TEST(RegionPolygonsTest, EveryCornerComesIntoTheFrameOfTheCloud)
+{
+  const Eigen::Vector3d corner(1, 2, 3);
+  RegionOutline outline;
+  outline.hull = {corner};
+  outline.patches.resize(2);
+  for (PlanePolygon& patch : outline.patches) {
+    patch.outer = {corner};
+    patch.holes = {{corner}, {corner}};
+  }
+  SensorPose pose;
+  pose.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1; // a quarter turn around z
+  pose.origin = {10, 20, 30};
+  const RegionOutline moved = inCloudFrame(outline, pose);
+  const PlaneRing expected = {{8, 21, 33}};
+  EXPECT_EQ(moved.hull, expected);
+  ASSERT_EQ(moved.patches.size(), 2U);
+  for (const PlanePolygon& patch : moved.patches) {
+    EXPECT_EQ(patch.outer, expected);
+    EXPECT_EQ(patch.holes, (std::vector<PlaneRing>{expected, expected}));
+  }
 }
 
 } // namespace

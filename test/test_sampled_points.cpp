@@ -50,7 +50,7 @@ struct Crease {
         points.set(static_cast<std::size_t>(v * width + u), x, y,
                    2.0f - 0.5f * std::abs(x));
       }
-    for (int k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < 2; ++k) {
       planes[k].normal = Eigen::Vector3d(k == 0 ? 0.5 : -0.5, 0, -1).normalized();
       planes[k].d = -planes[k].normal.dot(Eigen::Vector3d(0, 0, 2));
       planes[k].n = 1000;

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace pcl_mrf_planes {
 namespace {
@@ -251,6 +253,17 @@ TEST(FieldEnergyTest, NoPlaneEverywhereCostsItsPriceAtEveryPoint)
   const FieldEnergy energy = fieldEnergy(field, points, none, parameters);
   EXPECT_NEAR(energy.data, open_points * parameters.none_cost, 0.001 * energy.data);
   EXPECT_EQ(energy.smoothness, 0.0);
+}
+
+TEST(StageNameTest, EveryStageHasOneOfItsOwn)
+{
+  std::set<std::string> names;
+  for (const Stage stage : {Stage::MERGED, Stage::JOINED, Stage::CELLS,
+                            Stage::ITERATION, Stage::REFINED, Stage::FINAL})
+    names.insert(stageName(stage));
+  EXPECT_EQ(names.size(), 6U);
+  EXPECT_EQ(names.count(""), 0U);
+  EXPECT_EQ(stageName(Stage::FINAL), "final");
 }
 
 } // namespace

@@ -63,7 +63,7 @@ TEST(PlausibleOrigin, HoldsForTheSensorAndFailsForAMovedCloud)
 
 TEST(EstimatePinholePose, FindsTheCameraOfANoisyMovedCloud)
 {
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const SensorPose truth = somePose();
     SensorPose found;
     ASSERT_TRUE(

@@ -21,7 +21,8 @@ vtkSmartPointer<vtkProp> imageLayer(const io::ColourImage& image)
   auto* out = static_cast<unsigned char*>(data->GetScalarPointer());
   for (int y = image.height - 1; y >= 0; --y) // VTK's rows go up
     for (int x = 0; x < image.width; ++x) {
-      const io::Colour& c = image.pixels[static_cast<std::size_t>(y * image.width + x)];
+      const int i = y * image.width + x;
+      const io::Colour& c = image.pixels[static_cast<std::size_t>(i)];
       out = std::copy(c.begin(), c.end(), out);
     }
   auto actor = vtkSmartPointer<vtkImageActor>::New();

@@ -10,7 +10,8 @@ void claimPoints(const StageTile& tile, int index, int image_width,
 {
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      int& owner = tile_of_point[static_cast<std::size_t>(y * image_width + x)];
+      const int i = y * image_width + x;
+      int& owner = tile_of_point[static_cast<std::size_t>(i)];
       if (owner < 0)
         owner = index;
     }

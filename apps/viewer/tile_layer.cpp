@@ -31,7 +31,8 @@ bool findCorner(const ViewFrame& frame, int x, int y, int to_x, int to_y,
   for (int k = 0; k <= STEPS; ++k) {
     const int px = x + (to_x - x) * k / STEPS;
     const int py = y + (to_y - y) * k / STEPS;
-    const auto i = static_cast<std::size_t>(py * frame.points.width + px);
+    const int pixel = py * frame.points.width + px;
+    const auto i = static_cast<std::size_t>(pixel);
     if (frame.points.valid[i] == 0)
       continue;
     corner = (*frame.cloud)[i].getVector3fMap().cast<double>();

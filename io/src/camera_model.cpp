@@ -166,9 +166,10 @@ CloudFile cloudFromDepth(const DepthMap& depth, const CameraModel& camera)
   cloud.is_dense = 0;
   cloud.data.resize(depth.pixels.size() * cloud.point_step);
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
-    const double across =
-        (static_cast<double>(i % cloud.width) - camera.cx) / camera.fx;
-    const double down = (static_cast<double>(i / cloud.width) - camera.cy) / camera.fy;
+    const std::size_t u = i % cloud.width;
+    const std::size_t v = i / cloud.width;
+    const double across = (static_cast<double>(u) - camera.cx) / camera.fx;
+    const double down = (static_cast<double>(v) - camera.cy) / camera.fy;
     double z = static_cast<double>(depth.pixels[i]);
     if (camera.along_ray)
       z /= std::sqrt(1.0 + across * across + down * down);

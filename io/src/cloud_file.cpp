@@ -147,7 +147,7 @@ int writeByPcl(const std::string& path, const CloudFile& file, PcdFormat format)
 PcdHeader checkWhole(const std::string& path, const CloudFile& file)
 {
   std::ifstream stream;
-  const PcdHeader header = readPcdHeader(stream, openFile(path, stream), {});
+  PcdHeader header = readPcdHeader(stream, openFile(path, stream), {});
   if (header.format == PcdFormat::ASCII && !hasAllLines(stream, header))
     throw std::runtime_error("is incomplete");
   if (header.cloud.width != file.cloud.width ||

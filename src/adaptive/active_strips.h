@@ -34,7 +34,8 @@ public:
   /// of row 0 to the number of rows, strip 0 to count().
   std::size_t first(int row, int strip) const
   {
-    return first_[static_cast<std::size_t>(row * (strips_ + 1) + strip)];
+    const int k = row * (strips_ + 1) + strip;
+    return first_[static_cast<std::size_t>(k)];
   }
 
 private:

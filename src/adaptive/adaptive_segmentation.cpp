@@ -16,6 +16,7 @@
 #include "stage_timer.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -74,7 +75,8 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
                              ? estimateNoise(pyramid, parameters, threads)
                              : statedNoise(all_parameters.noise, pyramid, parameters);
   const double correlated = pointsPerIndependentOne(noise);
-  parameters.min_points = static_cast<int>(parameters.min_points * correlated);
+  parameters.min_points = static_cast<int>(std::min<double>(
+      parameters.min_points * correlated, std::numeric_limits<int>::max()));
   parameters.min_evidence *= correlated;
   assignLocalNoise(pyramid, noise, parameters, threads);
   TileRegions regions = selectTiles(pyramid, noise, parameters, threads);

@@ -198,7 +198,8 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
   constexpr double BEHIND = 3.0;       // sigmas
   const double limit = parameters.join_tolerance * parameters.join_tolerance;
   const Gap gap(parts, points, cells, parameters);
-  Regions regions(std::move(parts));
+  // Sums and planes only; which region a cell is of is still wanted below.
+  Regions regions(std::move(static_cast<FittedRegions&>(parts)));
   const auto cost = [&](int a, int b) {
     return dissimilarity(regions.plane(a), regions.plane(b),
                          fitSums(regions.sums(a) + regions.sums(b)), noise, parameters);

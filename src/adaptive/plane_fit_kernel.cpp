@@ -190,6 +190,8 @@ HWY_INLINE void ReadLane(const Table<D, RESULTS>& table, std::size_t lane,
     plane.n = sums.n;
     return;
   }
+  // A lane of three points has been fitted with its table, which clang-tidy cannot know.
+  // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn)
   const auto number = [&](std::size_t k) { return table.at[k][lane]; };
   plane.normal = {number(0), number(1), number(2)};
   plane.d = number(3);

@@ -4,12 +4,12 @@
 namespace pcl_mrf_planes::adaptive {
 
 double dissimilarity(const FittedPlane& a, const FittedPlane& b,
-                     const FittedPlane& plane, const NoiseLaw& noise,
+                     const FittedPlane& joint, const NoiseLaw& noise,
                      const AdaptiveParameters& p)
 {
-  const double growth = plane.mse * plane.n - a.mse * a.n - b.mse * b.n;
-  const double allowed = allowedVariance(plane, noise, p);
-  if (plane.mse > p.region_tolerance * p.region_tolerance * allowed)
+  const double growth = joint.mse * joint.n - a.mse * a.n - b.mse * b.n;
+  const double allowed = allowedVariance(joint, noise, p);
+  if (joint.mse > p.region_tolerance * p.region_tolerance * allowed)
     return -1;
   return std::max(0.0, growth) / std::min(a.n, b.n) / allowed;
 }

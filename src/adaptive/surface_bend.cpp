@@ -131,6 +131,7 @@ std::vector<Bend> measureBends(const OrganizedPoints& points,
                      addRow(2 * static_cast<std::size_t>(row), of_rows);
                  });
   std::vector<Bend> bends;
+  bends.reserve(sums.size());
   for (const QuadricSums& sum : sums)
     bends.push_back(sum.bend());
   return bends;
