@@ -240,7 +240,7 @@ double ownCorrelation(const Evidence& evidence, double pooled)
 /// them. Blocks as expected count beside a region's own, so that chance has little say.
 Eigen::Matrix3d robustNoise(const Evidence& evidence, double correlation)
 {
-  const Eigen::Matrix3d noise = correlation * evidence.noise;
+  Eigen::Matrix3d noise = correlation * evidence.noise;
   const Eigen::LLT<Eigen::Matrix3d> factor(noise);
   if (factor.info() != Eigen::Success)
     return noise;
