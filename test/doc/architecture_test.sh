@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$1"
 table=$(sed -n '/^## Where a thing is/,/^## After/p' doc/architecture.md)
 names=$(find src -name '*.cpp' -o -name '*.h' | sed -E 's#.*/##; s/\.(cpp|h)$//' | sort -u)
-named=$(grep -E '^\|' <<<"$table" | sed 's/.*|\(.*\)|$/\1/' | grep -oE '`[a-z_/]+`' |
+named=$(grep -E '^\|' <<<"$table" | sed 's/.*|\(.*\)|$/\1/' | grep -oE '`[a-z_/-]+`' |
   tr -d '`' | sed 's#adaptive/##' | grep -v '^src/$' | sort -u)
 [ "$names" = "$named" ] || {
   diff <(printf '%s\n' "$names") <(printf '%s\n' "$named") >&2 || true
