@@ -80,7 +80,7 @@ TEST_F(Wrap, PlanesDoNotDependOnWhereTheScanStarts)
       double best = 1e9, area = 0.0;
       for (const Json& candidate : other) {
         double apart = 0.0;
-        for (int k = 0; k < 4; ++k)
+        for (std::size_t k = 0; k < 4; ++k)
           apart += std::abs(plane["coefficients"][k].get<double>() -
                             candidate["coefficients"][k].get<double>());
         if (apart < best) {
