@@ -101,7 +101,7 @@ TEST_F(Wrap, ChangesNothingWhereNothingCrossesTheSeam)
   const Json wrapped = planesOf("in.pcd", {"--wrap"})["planes"];
   ASSERT_EQ(plain.size(), wrapped.size());
   for (std::size_t k = 0; k < plain.size(); ++k)
-    for (int i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < 4; ++i)
       EXPECT_NEAR(plain[k]["coefficients"][i].get<double>(),
                   wrapped[k]["coefficients"][i].get<double>(), 1e-2);
 }
