@@ -19,7 +19,6 @@
 namespace pcl_mrf_planes {
 namespace {
 
-using scenes::SceneFrame;
 using scenes::SensorNoise;
 
 /// A wall 2 m away, of any size.

@@ -15,7 +15,6 @@ namespace pcl_mrf_planes::evaluation {
 namespace {
 
 using reference::drawn;
-using reference::LabelPair;
 using reference::randomPair;
 
 TEST(BorderAgreement, PerfectResult)

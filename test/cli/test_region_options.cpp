@@ -125,9 +125,10 @@ TEST_F(RegionReports, ThePolygonMeshHasTheAreaOfTheOutlines)
   double area = 0;
   for (const pcl::Vertices& triangle : mesh.polygons) {
     ASSERT_EQ(triangle.vertices.size(), 3U);
-    const Eigen::Vector3f a = corners[triangle.vertices[0]].getVector3fMap();
-    const Eigen::Vector3f b = corners[triangle.vertices[1]].getVector3fMap();
-    const Eigen::Vector3f c = corners[triangle.vertices[2]].getVector3fMap();
+    const auto corner = [&](std::size_t k) -> Eigen::Vector3f {
+      return corners[static_cast<std::size_t>(triangle.vertices[k])].getVector3fMap();
+    };
+    const Eigen::Vector3f a = corner(0), b = corner(1), c = corner(2);
     area += static_cast<double>((b - a).cross(c - a).norm()) / 2;
   }
   double expected = 0;

@@ -80,7 +80,7 @@ TEST_F(Wrap, PlanesDoNotDependOnWhereTheScanStarts)
       double best = 1e9, area = 0.0;
       for (const Json& candidate : other) {
         double apart = 0.0;
-        for (int k = 0; k < 4; ++k)
+        for (std::size_t k = 0; k < 4; ++k)
           apart += std::abs(plane["coefficients"][k].get<double>() -
                             candidate["coefficients"][k].get<double>());
         if (apart < best) {
@@ -101,7 +101,7 @@ TEST_F(Wrap, ChangesNothingWhereNothingCrossesTheSeam)
   const Json wrapped = planesOf("in.pcd", {"--wrap"})["planes"];
   ASSERT_EQ(plain.size(), wrapped.size());
   for (std::size_t k = 0; k < plain.size(); ++k)
-    for (int i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < 4; ++i)
       EXPECT_NEAR(plain[k]["coefficients"][i].get<double>(),
                   wrapped[k]["coefficients"][i].get<double>(), 1e-2);
 }

@@ -24,7 +24,7 @@ pcl::PointXYZ basePoint(int shape, int u, int v, int width)
   case 1: // a corner
     return {x, y, u < width / 2 ? 2.0f : 2.0f + x};
   case 2: // stairs
-    return {x, y, 1.0f + 0.2f * static_cast<float>(v / 12)};
+    return {x, y, 1.0f + 0.2f * std::floor(static_cast<float>(v) / 12.0f)};
   case 3: // a curved surface
     return {x, y, 2.0f + x * x + y * y};
   case 4: // all alike

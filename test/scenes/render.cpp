@@ -12,7 +12,7 @@ namespace {
 
 std::uint8_t toByte(double share)
 {
-  return static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0) + 0.5);
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
 
 /// Some light from everywhere, some from a lamp, some from the camera.
