@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/noise_estimation.h"
+
+#include "scenes/random.h"
+
+#include <gtest/gtest.h>
+
+namespace pcl_mrf_planes::adaptive {
+namespace {
+
+constexpr int WIDTH = 320;
+constexpr int HEIGHT = 256;
+constexpr int SIDE = 16; // of a patch, points
+constexpr double SIGMA = 0.01;
+
+/// Patches seen from the front, 2 m away at the top and 10 m at the bottom. Of those beyond
+/// 6 m a share is clutter: points anywhere within a metre.
+OrganizedPoints patches(double clutter)
+{
+  scenes::Random random(5);
+  OrganizedPoints points;
+  points.resize(WIDTH, HEIGHT);
+  points.depth_measure = DepthMeasure::OPTICAL_AXIS;
+  for (int top = 0; top < HEIGHT; top += SIDE)
+    for (int left = 0; left < WIDTH; left += SIDE) {
+      const double depth = 2.0 + 8.0 * top / HEIGHT;
+      const bool is_clutter = depth > 6.0 && random.uniform() < clutter;
+      for (int v = top; v < top + SIDE; ++v)
+        for (int u = left; u < left + SIDE; ++u) {
+          const double z = depth + (is_clutter ? 2.0 * random.uniform() - 1.0
+                                               : SIGMA * random.normal());
+          points.set(static_cast<std::size_t>(v * WIDTH + u),
+                     static_cast<float>(z * (u - WIDTH / 2) / 300.0),
+                     static_cast<float>(z * (v - HEIGHT / 2) / 300.0),
+                     static_cast<float>(z));
+        }
+    }
+  return points;
+}
+
+NoiseLaw noiseOf(const OrganizedPoints& points)
+{
+  const AdaptiveParameters parameters;
+  return estimateNoise(buildTilePyramid(points, parameters), parameters);
+}
+
+TEST(NoiseEstimationTest, FindsTheNoiseOfSurfacesAtAllDepths)
+{
+  const NoiseLaw noise = noiseOf(patches(0.0));
+  for (const double z : {2.5, 5.0, 9.0})
+    EXPECT_NEAR(noise.small(z), SIGMA, 0.25 * SIGMA) << "at " << z << " m";
+}
+
+TEST(NoiseEstimationTest, ClutterFarAwayIsNotNoise)
+{
+  const NoiseLaw noise = noiseOf(patches(0.7));
+  EXPECT_NEAR(noise.small(2.5), SIGMA, 0.5 * SIGMA);
+  EXPECT_LT(noise.small(9.0), 3.0 * SIGMA)
+      << "seven in ten of the far patches, half a metre thick, count as noise";
+}
+
+} // namespace
+} // namespace pcl_mrf_planes::adaptive
