@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** \file Writes what the commands of README.md take as given, of generated rooms: depth.png,
  * a TUM RGB-D folder, and a labeled NYU file. One argument: the folder to write into. */
+#include "io/matlab_array.h"
 #include "scenes/render.h"
 #include "scenes/scene_library.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace scenes = pcl_mrf_planes::scenes;
+using pcl_mrf_planes::test::writeArray;
 
 scenes::SceneFrame roomSeen(std::uint64_t seed)
 {
@@ -61,18 +63,6 @@ void writeTum(const fs::path& folder)
     depth << name << " depth/" << name << ".png\n";
     rgb << name << " rgb/" << name << ".png\n";
   }
-}
-
-void writeArray(hid_t file, const char* name, hid_t type,
-                const std::vector<hsize_t>& shape, const void* values)
-{
-  const hid_t space =
-      H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
-  const hid_t data =
-      H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-  H5Dclose(data);
-  H5Sclose(space);
 }
 
 /// One frame as MATLAB stores it: column by column, behind a header of 512 bytes.

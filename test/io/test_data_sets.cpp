@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data sets in the layouts in which they are published, written here on a small scale.
 #include "io_files.h"
+#include "matlab_array.h"
 
 #include <hdf5.h>
 
@@ -181,19 +182,6 @@ TEST_F(DataSets, PlainPgmIsBigEndianAndNeedsACamera)
 }
 
 namespace {
-
-/// An array as MATLAB's v7.3 files have it: the last dimension first.
-void writeArray(hid_t file, const char* name, hid_t type,
-                const std::vector<hsize_t>& shape, const void* values)
-{
-  const hid_t space =
-      H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
-  const hid_t data =
-      H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-  H5Dclose(data);
-  H5Sclose(space);
-}
 
 /// nyu_depth_v2_labeled.mat with two frames: depth k + 1 + (column + row) / 1000.
 void writeLabeled(const std::string& path)
