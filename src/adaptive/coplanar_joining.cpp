@@ -200,9 +200,11 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
   const Gap gap(parts, points, cells, parameters);
   // Sums and planes only; which region a cell is of is still wanted below.
   Regions regions(std::move(static_cast<FittedRegions&>(parts)));
-  const auto cost = [&](int a, int b) {
-    return dissimilarity(regions.plane(a), regions.plane(b),
-                         fitSums(regions.sums(a) + regions.sums(b)), noise, parameters);
+  const auto jointOf = [&](int a, int b) {
+    return fitSums(regions.sums(a) + regions.sums(b));
+  };
+  const auto cost = [&](int a, int b, const FittedPlane& joint) {
+    return dissimilarity(regions.plane(a), regions.plane(b), joint, noise, parameters);
   };
 
   std::vector<Candidate> pairs;
@@ -211,7 +213,7 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
       if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||
           !gap.mayBeNarrow(a, b))
         continue;
-      const double c = cost(a, b);
+      const double c = cost(a, b, jointOf(a, b));
       if (c >= 0 && c <= limit)
         pairs.push_back({c, a, b, 0});
     }
@@ -223,10 +225,10 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
     const int b = regions.find(pair.b);
     if (a == b)
       continue;
-    const double c = cost(a, b); // either may have grown since
+    const FittedPlane joint = jointOf(a, b);
+    const double c = cost(a, b, joint); // either may have grown since
     if (c < 0 || c > limit)
       continue;
-    const FittedPlane joint = fitSums(regions.sums(a) + regions.sums(b));
     const double tolerance =
         BEHIND * std::sqrt(allowedVariance(joint, noise, parameters));
     if (gap.mayHidePlane(pair.a, pair.b, joint, tolerance))
