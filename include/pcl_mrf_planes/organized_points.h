@@ -109,7 +109,8 @@ struct PCL_MRF_PLANES_EXPORT OrganizedPoints {
     return depth_measure == DepthMeasure::RANGE ? point.norm() : std::abs(point.z());
   }
 
-  /** \brief Decide AUTO from the points: a camera sees nothing behind itself. */
+  /** \brief Decide AUTO from the points of every fourth row: a camera sees nothing behind
+   * itself. */
   void resolveDepthMeasure(DepthMeasure wanted);
 
   /** \brief Number of valid points. */

@@ -129,11 +129,10 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
 }
 
 /// The same of every so many-th point, and the labels of the others from theirs.
-Labelling labelSampled(const OrganizedPoints& points, const Parameters& parameters,
-                       SegmentationReport& report, StageTimer& timer,
-                       StageObserver* observer)
+Labelling labelSampled(const OrganizedPoints& points, int every,
+                       const Parameters& parameters, SegmentationReport& report,
+                       StageTimer& timer, StageObserver* observer)
 {
-  const int every = parameters.adaptive.sampling;
   const OrganizedPoints samples =
       samplePoints(points, every, parameters.number_of_threads);
   timer.finish("sampling");
@@ -162,9 +161,10 @@ PlaneSegmentation adaptive::segmentObserved(const OrganizedPoints& points,
   PlaneSegmentation result;
   SegmentationReport& report = result.report;
   StageTimer timer(report.stage_ms);
-  Labelling found = parameters.adaptive.sampling > 1
-                        ? labelSampled(points, parameters, report, timer, observer)
-                        : labelPlanes(points, parameters, report, timer, observer);
+  const int every = samplingStep(points, parameters.adaptive);
+  Labelling found =
+      every > 1 ? labelSampled(points, every, parameters, report, timer, observer)
+                : labelPlanes(points, parameters, report, timer, observer);
   const std::vector<Plane> planes(found.fitted.planes.begin(),
                                   found.fitted.planes.end());
   const LabelRuns runs = planeRuns(found.image.runs);

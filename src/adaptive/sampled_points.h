@@ -8,6 +8,10 @@
 
 namespace pcl_mrf_planes::adaptive {
 
+/** \brief The step that AdaptiveParameters::sampling gives for these points, made shorter
+ * until AdaptiveParameters::least_samples are left; 1 or more. */
+int samplingStep(const OrganizedPoints& points, const AdaptiveParameters& parameters);
+
 /** \brief Every so many-th point of every so many-th row, from the first on.
  * O(points / every^2) */
 OrganizedPoints samplePoints(const OrganizedPoints& points, int every,

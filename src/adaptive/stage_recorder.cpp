@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/stage_recorder.h"
 #include "adaptive/field_energy.h"
+#include "adaptive/sampled_points.h"
 #include "adaptive/stage_observer.h"
 
 #include <algorithm>
@@ -137,7 +138,7 @@ SegmentationStages recordAdaptive(const OrganizedPoints& points,
                                   const Parameters& parameters)
 {
   SegmentationStages stages;
-  StageRecorder recorder(points, parameters.adaptive.sampling, stages);
+  StageRecorder recorder(points, samplingStep(points, parameters.adaptive), stages);
   stages.result = segmentObserved(points, parameters, &recorder);
   return stages;
 }
