@@ -55,8 +55,8 @@ public:
   LabelSpreading(const OrganizedPoints& points, const OrganizedPoints& samples,
                  const std::vector<std::uint16_t>& labels, int every,
                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
-                 const AdaptiveParameters& parameters)
-  : out(points.size())
+                 const AdaptiveParameters& parameters, std::vector<std::uint16_t>& out)
+  : out_(out)
   , points_(points)
   , samples_(samples)
   , labels_(labels)
@@ -83,8 +83,6 @@ public:
              row * every_, bottom);
     }
   }
-
-  std::vector<std::uint16_t> out;
 
 private:
   /// The different labels at the corners of a square.
@@ -133,7 +131,7 @@ private:
   void copyRow(int v, const std::vector<std::uint16_t>& wide)
   {
     const std::uint16_t* from = wide.data();
-    std::uint16_t* to = &out[at(0, v)];
+    std::uint16_t* to = &out_[at(0, v)];
     const std::uint8_t* valid = &points_.valid[at(0, v)];
     for (int u = 0; u < points_.width; ++u)
       to[u] = static_cast<std::uint16_t>(from[u] * valid[u]);
@@ -191,7 +189,7 @@ private:
     }
     for (int k = 0; k < count; ++k) {
       const std::size_t point = i + static_cast<std::size_t>(k);
-      out[point] = static_cast<std::uint16_t>(best[k] * points_.valid[point]);
+      out_[point] = static_cast<std::uint16_t>(best[k] * points_.valid[point]);
     }
   }
 
@@ -206,6 +204,7 @@ private:
     return four;
   }
 
+  std::vector<std::uint16_t>& out_;
   const OrganizedPoints& points_;
   const OrganizedPoints& samples_;
   const std::vector<std::uint16_t>& labels_;
@@ -233,8 +232,15 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
                              unsigned int threads)
 {
   OrganizedPoints samples;
-  samples.resize((points.width + every - 1) / every,
-                 (points.height + every - 1) / every);
+  samplePoints(points, every, threads, samples);
+  return samples;
+}
+
+void samplePoints(const OrganizedPoints& points, int every, unsigned int threads,
+                  OrganizedPoints& samples)
+{
+  samples.setSize((points.width + every - 1) / every,
+                  (points.height + every - 1) / every);
   samples.depth_measure = points.depth_measure;
   const auto step = static_cast<std::size_t>(every);
   const auto columns = static_cast<std::size_t>(samples.width);
@@ -253,7 +259,6 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
     take(points.z, r, samples.z);
     take(points.valid, r, samples.valid);
   });
-  return samples;
 }
 
 std::vector<std::uint16_t>
@@ -262,14 +267,26 @@ spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
              const AdaptiveParameters& parameters, unsigned int threads)
 {
-  LabelSpreading spreading(points, samples, labels, every, planes, noise, parameters);
+  std::vector<std::uint16_t> out;
+  spreadLabels(points, samples, labels, every, planes, noise, parameters, threads, out);
+  return out;
+}
+
+void spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
+                  const std::vector<std::uint16_t>& labels, int every,
+                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+                  const AdaptiveParameters& parameters, unsigned int threads,
+                  std::vector<std::uint16_t>& out)
+{
+  out.resize(points.size());
+  LabelSpreading spreading(points, samples, labels, every, planes, noise, parameters,
+                           out);
   const Bands bands(samples.height);
   parallelParts(bands.count, threads, [&](int band) {
     std::vector<std::uint16_t> wide;
     for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
       spreading.spreadRow(row, wide);
   });
-  return std::move(spreading.out);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -17,6 +17,10 @@ int samplingStep(const OrganizedPoints& points, const AdaptiveParameters& parame
 OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
                              unsigned int threads = 1);
 
+/** \brief The same in the memory of others. */
+void samplePoints(const OrganizedPoints& points, int every, unsigned int threads,
+                  OrganizedPoints& samples);
+
 /** \brief Labels of all points from those of the sampled ones (0 none, k planes[k - 1]).
  *
  * Points between samples of one label take it. Elsewhere a point takes, of the labels
@@ -27,5 +31,12 @@ spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<std::uint16_t>& labels, int every,
              const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
              const AdaptiveParameters& parameters, unsigned int threads = 1);
+
+/** \brief The same into labels that are there already. */
+void spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
+                  const std::vector<std::uint16_t>& labels, int every,
+                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+                  const AdaptiveParameters& parameters, unsigned int threads,
+                  std::vector<std::uint16_t>& out);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -3,6 +3,7 @@
 #include "adaptive/field_energy.h"
 #include "adaptive/sampled_points.h"
 #include "adaptive/stage_observer.h"
+#include "adaptive/workspace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +140,8 @@ SegmentationStages recordAdaptive(const OrganizedPoints& points,
 {
   SegmentationStages stages;
   StageRecorder recorder(points, samplingStep(points, parameters.adaptive), stages);
-  stages.result = segmentObserved(points, parameters, &recorder);
+  Workspace workspace;
+  segmentObserved(points, parameters, &recorder, workspace, stages.result);
   return stages;
 }
 
