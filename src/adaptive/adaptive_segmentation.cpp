@@ -115,7 +115,7 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   // C and D. The random field and its MAP labels, of the cells until their planes are good
   // and then of the points; and the planes fitted to them
   for (int round = 1; round < parameters.rounds; ++round) {
-    regions = labelCells(regions, pyramid[0], noise, parameters, threads);
+    regions = labelCells(regions, pyramid, noise, parameters, threads);
     if (observer != nullptr)
       observer->seeRegions(Stage::CELLS, regions, pyramid[0]);
   }
