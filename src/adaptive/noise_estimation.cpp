@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -79,9 +81,31 @@ void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
 
 } // namespace
 
+namespace {
+
+/// The binary logarithm to within 0.01, of a normal number: growth is interpolated by it.
+double roughLog2(double number)
+{
+  constexpr int MANTISSA = 52; // bits
+  constexpr std::int64_t BIAS = 1023;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &number, sizeof(bits));
+  const auto exponent = static_cast<std::int64_t>(bits >> MANTISSA) - BIAS;
+  bits = (bits & ((std::uint64_t{1} << MANTISSA) - 1)) |
+         (static_cast<std::uint64_t>(BIAS) << MANTISSA);
+  double mantissa = 0; // 1 to 2
+  std::memcpy(&mantissa, &bits, sizeof(mantissa));
+  const double part = mantissa - 1;
+  return static_cast<double>(exponent) + part * (1.3465 - 0.3465 * part);
+}
+
+} // namespace
+
 double NoiseLaw::growthOf(double n) const
 {
-  const double l = std::max(0.0, 0.5 * std::log2(std::max(n, 1.0)) - std::log2(CELL));
+  constexpr double LOG2_CELL = 2;
+  static_assert(CELL == 4, "growth starts with the smallest tiles");
+  const double l = std::max(0.0, 0.5 * roughLog2(std::max(n, 1.0)) - LOG2_CELL);
   const auto i = static_cast<std::size_t>(l);
   const std::size_t last = growth.size() - 1;
   const double t = l - static_cast<double>(i);
