@@ -72,14 +72,20 @@ PCL_MRF_PLANES_EXPORT PlaneSegmentation segmentPlanes(const OrganizedPoints& poi
  * A copy has memory of its own. An object is for one thread at a time. */
 class PCL_MRF_PLANES_EXPORT PlaneSegmenter {
 public:
+  /** \brief Without memory yet. */
   PlaneSegmenter();
+  /** \brief Without memory yet: there is nothing else to copy. */
   PlaneSegmenter(const PlaneSegmenter& other);
+  /** \brief With the memory of the other. */
   PlaneSegmenter(PlaneSegmenter&& other) noexcept;
+  /** \brief Changes nothing: each keeps its memory. */
   PlaneSegmenter& operator=(const PlaneSegmenter& other);
+  /** \brief Takes the memory of the other. */
   PlaneSegmenter& operator=(PlaneSegmenter&& other) noexcept;
   ~PlaneSegmenter();
 
-  /** \param[in] points the cloud in the sensor frame
+  /** \brief The same as segmentPlanes().
+   * \param[in] points the cloud in the sensor frame
    * \param[in] parameters must pass Parameters::validate()
    * \param[in,out] result is replaced; the memory of the one before is used again */
   void segment(const OrganizedPoints& points, const Parameters& parameters,

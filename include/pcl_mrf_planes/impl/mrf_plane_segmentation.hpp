@@ -3,6 +3,7 @@
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 #include <pcl_mrf_planes/region_contour.h>
+#include <pcl_mrf_planes/thread_scope.h>
 
 #include <pcl/console/print.h>
 
@@ -110,6 +111,7 @@ bool MRFPlaneSegmentation<PointT>::tryToSegment(const Fill& fill)
 {
   try {
     const auto start = std::chrono::steady_clock::now();
+    const pcl_mrf_planes::ThreadScope threads(parameters_.number_of_threads);
     readPoints();
     const std::chrono::duration<double, std::milli> reading =
         std::chrono::steady_clock::now() - start;
