@@ -15,6 +15,13 @@ enum class Comparison { OFF, DEFAULT, FAST, PAPER, PCL };
 /** \brief What the 2-D panel shows. */
 enum class Panel { OFF, LABELS_ON_COLOUR, LABELS_ON_DEPTH, COLOUR_AND_DEPTH };
 
+/** \brief The value after \a value, and after \a last the first. */
+template <typename Enum>
+Enum following(Enum value, Enum last)
+{
+  return value == last ? Enum{} : static_cast<Enum>(static_cast<int>(value) + 1);
+}
+
 /** \brief How the result is shown. */
 struct ViewSettings {
   ColourMode mode = ColourMode::PLANE;
