@@ -16,13 +16,16 @@ namespace pcl_mrf_planes::viewer {
 
 using Props = std::vector<vtkSmartPointer<vtkProp>>;
 
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
 /** \brief The points that are shown, in their colours.
+ * \param[in] cloud as measured, or moved
  * \param[in] step 2: only every second point of every second row, for the larger ones */
-vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& colours,
+vtkSmartPointer<vtkProp> cloudLayer(const Cloud& cloud, const PointColours& colours,
                                     int step = 1);
 
 /** \brief Contours as lines in one colour that stands out from the background. */
-vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
+vtkSmartPointer<vtkProp> contourLayer(const Cloud& cloud,
                                       const std::vector<LabelContour>& contours,
                                       const ViewSettings& settings);
 
@@ -40,6 +43,13 @@ Props creaseLayer(const std::vector<PlaneCrease>& creases,
 
 /** \brief The angles between the normals, degrees, in the middle of the creases. */
 Props angleMarks(const std::vector<PlaneCrease>& creases, const ViewSettings& settings);
+
+/** \brief Polygons of the planes that are shown, see-through, with their rings; or their
+ * convex hulls as lines.
+ * \param[in] classes colour of each plane */
+Props shapeLayer(const std::vector<RegionOutline>& outlines,
+                 const std::vector<std::uint32_t>& classes,
+                 const ViewSettings& settings);
 
 /** \brief Every tile as a square on its points: filled in the colour of the plane that it
  * merged into; tiles that were not kept as gray outlines. */

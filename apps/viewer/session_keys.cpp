@@ -25,7 +25,7 @@ bool Session::performView(Action action)
     value = !value;
     return true;
   };
-  if (action >= Action::BY_PLANE && action <= Action::BY_TILE_ERROR) {
+  if (action >= Action::BY_PLANE && action <= Action::BY_GIVEN_LABEL) {
     settings.mode = static_cast<ColourMode>(static_cast<int>(action) -
                                             static_cast<int>(Action::BY_PLANE));
     settings.film = false;
@@ -41,6 +41,8 @@ bool Session::performView(Action action)
     return toggle(settings.normals);
   case Action::CREASES:
     return toggle(settings.creases);
+  case Action::PROJECTION:
+    return toggle(settings.projected);
   case Action::SLIDERS:
     return toggle(settings.sliders);
   case Action::FACTS:
@@ -53,6 +55,9 @@ bool Session::performView(Action action)
     return true;
   case Action::PANEL:
     settings.panel = following(settings.panel, Panel::COLOUR_AND_DEPTH);
+    return true;
+  case Action::SHAPES:
+    settings.shapes = following(settings.shapes, Shapes::HULLS);
     return true;
   case Action::COMPARE:
     settings.comparison = following(settings.comparison, Comparison::PCL);

@@ -46,14 +46,24 @@ Props SessionPicture::view(const SegmentedView& result,
   const ViewFrame& frame = session_.frame();
   colours =
       colourPoints(frame, result, session_.tiles(), settings, classes, colours.scale);
-  Props props = {cloudLayer(frame, colours, stride_)};
+  const Cloud& cloud = *cloudOf(result);
+  Props props = {cloudLayer(cloud, colours, stride_)};
   if (settings.contours)
-    props.push_back(contourLayer(frame, contoursOf(frame, result), settings));
+    props.push_back(contourLayer(cloud, contoursOf(frame, result), settings));
   if (settings.normals)
     props.push_back(normalLayer(result, settings));
   if (settings.creases && result.creases)
     append(creaseLayer(result.creases(), settings), props);
+  if (settings.shapes != Shapes::OFF && result.outlines)
+    append(shapeLayer(result.outlines(), classes, settings), props);
   return props;
+}
+
+Cloud::ConstPtr SessionPicture::cloudOf(const SegmentedView& result) const
+{
+  if (session_.settings.projected && result.projected)
+    return result.projected();
+  return session_.frame().cloud;
 }
 
 Layout SessionPicture::layout() const
@@ -90,7 +100,7 @@ void SessionPicture::drawLeft()
     for (io::Colour& colour : dim.colours)
       for (std::uint8_t& channel : colour)
         channel = static_cast<std::uint8_t>(channel / 3);
-    props[0] = cloudLayer(session_.frame(), dim, stride_);
+    props[0] = cloudLayer(*cloudOf(session_.main()), dim, stride_);
     append(tileLayer(session_.frame(), session_.tiles()), props);
   }
   screen_.show(Screen::LEFT, props);
@@ -177,6 +187,14 @@ void SessionPicture::lookFromSensor()
 {
   screen_.arrange(layout());
   screen_.look(sensorView(session_.frame()));
+}
+
+void SessionPicture::facePlane()
+{
+  const std::size_t selected = session_.settings.selected;
+  screen_.look(selected == 0 ? viewFromAbove(session_.frame())
+                             : viewAlong(session_.frame(),
+                                         session_.main().planes[selected - 1u].normal));
 }
 
 } // namespace pcl_mrf_planes::viewer

@@ -24,15 +24,22 @@ public:
   /** \brief Look from where the sensor was, at what is seen now. */
   void lookFromSensor();
 
+  /** \brief Look at the front of the selected plane; down on all if none is. */
+  void facePlane();
+
   /** \brief Whether all points are drawn. */
   bool isFull() const { return stride_ == 1; }
 
   /** \brief Which points are seen on the left, those that can be picked. */
   const std::vector<bool>& shownPoints() const { return left_.shown; }
 
+  /** \brief The points where they are seen on the left. */
+  Cloud::ConstPtr shownCloud() const { return cloudOf(session_.main()); }
+
 private:
   Props view(const SegmentedView& result, const std::vector<std::uint32_t>& classes,
              const ViewSettings& settings, PointColours& colours) const;
+  Cloud::ConstPtr cloudOf(const SegmentedView& result) const;
   Layout layout() const;
   void drawLeft();
   void drawRight();

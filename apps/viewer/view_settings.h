@@ -7,13 +7,25 @@
 namespace pcl_mrf_planes::viewer {
 
 /** \brief What a point's colour stands for. */
-enum class ColourMode { PLANE, DEPTH, OWN, CONFIDENCE, DISTANCE, TILE_ERROR };
+enum class ColourMode {
+  PLANE,
+  DEPTH,
+  OWN,
+  CONFIDENCE,
+  DISTANCE,
+  TILE_ERROR,
+  DEVIATION,
+  GIVEN_LABEL
+};
 
 /** \brief What stands on the right half of the window. */
 enum class Comparison { OFF, DEFAULT, FAST, PAPER, PCL };
 
 /** \brief What the 2-D panel shows. */
 enum class Panel { OFF, LABELS_ON_COLOUR, LABELS_ON_DEPTH, COLOUR_AND_DEPTH };
+
+/** \brief How the shape of the planes is shown. */
+enum class Shapes { OFF, POLYGONS, HULLS };
 
 /** \brief The value after \a value, and after \a last the first. */
 template <typename Enum>
@@ -27,9 +39,11 @@ struct ViewSettings {
   ColourMode mode = ColourMode::PLANE;
   Comparison comparison = Comparison::OFF;
   Panel panel = Panel::OFF;
+  Shapes shapes = Shapes::OFF;
   bool contours = false;
   bool normals = false;
   bool creases = false;
+  bool projected = false; ///< points are moved onto their planes
   bool tiles = false;
   bool sliders = false;
   bool help = false;

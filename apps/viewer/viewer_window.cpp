@@ -97,6 +97,8 @@ void ViewerWindow::Parts::act(Action action)
   session.perform(action);
   if (action == Action::COMPARE || action == Action::RESET_CAMERA)
     picture.lookFromSensor();
+  if (action == Action::FACE_PLANE)
+    picture.facePlane();
   if (action == Action::SCREENSHOT) {
     const std::string path =
         options.pictures + '_' + std::to_string(++pictures) + ".png";
@@ -131,7 +133,7 @@ void ViewerWindow::Parts::click(int x, int y)
   const Eigen::Vector2d place =
       2.0 * (Eigen::Vector2d(x - origin[0], y - origin[1]).array() / extent.array()) -
       1.0;
-  session.pick(pickPoint(*session.frame().cloud, picture.shownPoints(), projection,
+  session.pick(pickPoint(*picture.shownCloud(), picture.shownPoints(), projection,
                          place, 2.0 * PICK_REACH * extent.cwiseInverse()));
   draw();
   log();
