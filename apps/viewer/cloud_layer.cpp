@@ -47,7 +47,7 @@ std::vector<std::size_t> shownPoints(const Cloud& cloud, const PointColours& col
 } // namespace
 
 vtkSmartPointer<vtkProp> cloudLayer(const Cloud& cloud, const PointColours& colours,
-                                    int step)
+                                    float size, int step)
 {
   const std::vector<std::size_t> shown = shownPoints(cloud, colours, step);
   const auto count = static_cast<vtkIdType>(shown.size());
@@ -78,7 +78,7 @@ vtkSmartPointer<vtkProp> cloudLayer(const Cloud& cloud, const PointColours& colo
   data->SetVerts(vertices);
   data->GetPointData()->SetScalars(shades);
   vtkSmartPointer<vtkActor> actor = actorOf(data);
-  actor->GetProperty()->SetPointSize(step == 1 ? 3.0f : 5.0f);
+  actor->GetProperty()->SetPointSize(size);
   return actor;
 }
 

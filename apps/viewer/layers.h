@@ -20,9 +20,10 @@ using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 /** \brief The points that are shown, in their colours.
  * \param[in] cloud as measured, or moved
- * \param[in] step 2: only every second point of every second row, for the larger ones */
+ * \param[in] size of a point, pixels
+ * \param[in] step 2: only every second point of every second row */
 vtkSmartPointer<vtkProp> cloudLayer(const Cloud& cloud, const PointColours& colours,
-                                    int step = 1);
+                                    float size, int step = 1);
 
 /** \brief Contours as lines in one colour that stands out from the background. */
 vtkSmartPointer<vtkProp> contourLayer(const Cloud& cloud,
@@ -65,7 +66,7 @@ vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int show
 
 /** \brief A bar with the colours of a scale and the values that they stand for, on a plate.
  * \param[in] right its right edge, in shares of the window */
-vtkSmartPointer<vtkProp> scaleLayer(const ColourScale& scale, double right, bool dark);
+Props scaleLayer(const ColourScale& scale, double right, bool dark);
 
 /** \brief Lines of text on a plate; (x, y) in shares of the window.
  * \param[in] from_top y is the upper edge, else the lower */

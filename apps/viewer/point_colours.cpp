@@ -85,10 +85,12 @@ ColourScale scaleOf(ColourMode mode, const std::vector<double>& values)
   if (mode == ColourMode::CONFIDENCE)
     return {"confidence", 0.0, 1.0};
   const Range range = rangeOf(values);
-  const char* quantity = mode == ColourMode::DEPTH      ? "depth, m"
-                         : mode == ColourMode::DISTANCE ? "distance to the plane, mm"
-                         : mode == ColourMode::DEVIATION
-                             ? "standard deviation of the plane there, mm"
+  if (mode == ColourMode::DEVIATION) // of planes near and far, large and small
+    return {"standard deviation of the plane there, mm", std::max(1e-6, range.low),
+            std::max(2e-6, range.high), true};
+  const char* quantity = mode == ColourMode::DEPTH ? "depth, m"
+                         : mode == ColourMode::DISTANCE
+                             ? "distance to the plane, mm"
                              : "rms distance of the tile, mm";
   return {quantity, range.low, range.high};
 }
@@ -101,9 +103,7 @@ void colourByValue(const ViewFrame& frame, const SegmentedView& view,
   const ColourScale scale = same_scale ? *same_scale : scaleOf(mode, values);
   for (std::size_t i = 0; i < values.size(); ++i)
     result.colours[i] =
-        std::isfinite(values[i])
-            ? rampColour((values[i] - scale.low) / (scale.high - scale.low))
-            : NO_VALUE;
+        std::isfinite(values[i]) ? rampColour(scale.shareOf(values[i])) : NO_VALUE;
   result.scale = scale;
   result.legend = "colour: " + scale.quantity + "; grey none";
 }
@@ -144,6 +144,12 @@ void applySelection(const ViewFrame& frame, const SegmentedView& view,
 }
 
 } // namespace
+
+double ColourScale::shareOf(double value) const
+{
+  return logarithmic ? std::log(std::max(value, low) / low) / std::log(high / low)
+                     : (value - low) / (high - low);
+}
 
 io::Colour rampColour(double share)
 {

@@ -109,7 +109,7 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> axesOf(const OrganizedPoints& points
   return {up, forwardOf(points, up)};
 }
 
-/// Half of what lies along \a axis, and its middle; a hundredth at either end may be stray.
+/// Half of what lies along \a axis, and its middle; a few points at either end may be stray.
 std::pair<double, double> extentAlong(const OrganizedPoints& points,
                                       const Eigen::Vector3d& axis)
 {
@@ -118,15 +118,16 @@ std::pair<double, double> extentAlong(const OrganizedPoints& points,
     if (points.valid[i] != 0)
       places.push_back(axis.dot(
           Eigen::Vector3f(points.x[i], points.y[i], points.z[i]).cast<double>()));
-  const double low = quantile(places, 0.01);
-  const double high = quantile(places, 0.99);
+  const double low = quantile(places, 0.003);
+  const double high = quantile(places, 0.997);
   return {std::max(1e-6, 0.5 * (high - low)), 0.5 * (high + low)};
 }
 
 /// All in the frame of the sensor.
 SensorView lookAlong(const OrganizedPoints& points, const Eigen::Vector3d& normal)
 {
-  constexpr double FAR = 12.0; // in extents: hardly a perspective
+  constexpr double FAR = 60.0; // in extents: hardly a perspective
+  constexpr double ROOM = 1.1; // for the stray ones, and for points that are moved
   constexpr double ASTRAY = 0.8;
   const auto [up, forward] = axesOf(points);
   const Eigen::Vector3d wanted = std::abs(normal.dot(up)) > ASTRAY ? forward : up;
@@ -139,8 +140,8 @@ SensorView lookAlong(const OrganizedPoints& points, const Eigen::Vector3d& norma
   view.focus = x * right + y * view.up + z * normal;
   const double distance = FAR * std::max({half_across, half_along, half_deep});
   view.position = view.focus + distance * normal;
-  view.across = half_across / (distance - half_deep);
-  view.along = half_along / (distance - half_deep);
+  view.across = ROOM * half_across / (distance - half_deep);
+  view.along = ROOM * half_along / (distance - half_deep);
   return view;
 }
 

@@ -6,6 +6,7 @@
 #include "view_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_mrf_planes::viewer {
 
@@ -37,6 +38,20 @@ SegmentedView stageOf(const FilmStep& step)
   return stage;
 }
 
+/// As large as the window lets all lines of it be.
+vtkSmartPointer<vtkProp> helpText(int window_height, bool dark)
+{
+  constexpr int LARGEST = 14;
+  constexpr int SMALLEST = 6;
+  constexpr double LINE = 1.13; // height over font size
+  const std::string text = keyHelp() + MOUSE_HELP;
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  const int size =
+      static_cast<int>(0.97 * window_height / (LINE * static_cast<double>(lines)));
+  return textLayer(text, 0.30, 0.985, true, dark,
+                   std::max(SMALLEST, std::min(LARGEST, size)));
+}
+
 } // namespace
 
 Props SessionPicture::view(const SegmentedView& result,
@@ -47,7 +62,7 @@ Props SessionPicture::view(const SegmentedView& result,
   colours =
       colourPoints(frame, result, session_.tiles(), settings, classes, colours.scale);
   const Cloud& cloud = *cloudOf(result);
-  Props props = {cloudLayer(cloud, colours, stride_)};
+  Props props = {cloudLayer(cloud, colours, pointSize(), stride_)};
   if (settings.contours)
     props.push_back(contourLayer(cloud, contoursOf(frame, result), settings));
   if (settings.normals)
@@ -64,6 +79,20 @@ Cloud::ConstPtr SessionPicture::cloudOf(const SegmentedView& result) const
   if (session_.settings.projected && result.projected)
     return result.projected();
   return session_.frame().cloud;
+}
+
+float SessionPicture::pointSize() const
+{
+  constexpr double COVER =
+      1.4; // of the way to the next point: nothing shows between them
+  constexpr double SMALLEST = 3.0;
+  constexpr double LARGEST = 9.0;
+  const OrganizedPoints& points = session_.frame().points;
+  const int* size = screen_.renderer(Screen::LEFT)->GetSize();
+  const double spacing =
+      std::min(1.0 * size[0] / points.width, 1.0 * size[1] / points.height);
+  const double wanted = std::round(COVER * spacing * stride_);
+  return static_cast<float>(std::max(SMALLEST, std::min(LARGEST, wanted)));
 }
 
 Layout SessionPicture::layout() const
@@ -100,7 +129,7 @@ void SessionPicture::drawLeft()
     for (io::Colour& colour : dim.colours)
       for (std::uint8_t& channel : colour)
         channel = static_cast<std::uint8_t>(channel / 3);
-    props[0] = cloudLayer(*cloudOf(session_.main()), dim, stride_);
+    props[0] = cloudLayer(*cloudOf(session_.main()), dim, pointSize(), stride_);
     append(tileLayer(session_.frame(), session_.tiles()), props);
   }
   screen_.show(Screen::LEFT, props);
@@ -152,7 +181,7 @@ Props SessionPicture::texts() const
   const ViewSettings& settings = session_.settings;
   const bool dark = settings.dark;
   if (settings.help)
-    return {textLayer(keyHelp() + MOUSE_HELP, 0.30, 0.98, true, dark, 14)};
+    return {helpText(screen_.window()->GetSize()[1], dark)};
   Props props;
   if (settings.facts) {
     props.push_back(textLayer(factsText(session_), 0.01, 0.985, true, dark));
@@ -161,9 +190,10 @@ Props SessionPicture::texts() const
                                 0.5 * screen_.viewEnd() + 0.01, 0.985, true, dark));
   }
   if (left_.scale && session_.filmStep() == nullptr)
-    props.push_back(scaleLayer(*left_.scale, screen_.viewEnd(), dark));
+    append(scaleLayer(*left_.scale, screen_.viewEnd(), dark), props);
   std::string below = selectionText(session_);
-  if (settings.facts && session_.filmStep() == nullptr)
+  // A scale is nothing without its quantity.
+  if ((settings.facts || left_.scale) && session_.filmStep() == nullptr)
     below += left_.legend + '\n';
   below += session_.message();
   if (!below.empty())

@@ -40,6 +40,7 @@ private:
   Props view(const SegmentedView& result, const std::vector<std::uint32_t>& classes,
              const ViewSettings& settings, PointColours& colours) const;
   Cloud::ConstPtr cloudOf(const SegmentedView& result) const;
+  float pointSize() const;
   Layout layout() const;
   void drawLeft();
   void drawRight();

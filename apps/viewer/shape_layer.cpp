@@ -18,12 +18,16 @@ namespace {
 
 constexpr double FILLED = 0.5; // opacity
 
+// In steps of a depth buffer of 16 bits.
+constexpr double OVER_NOISE = 1000.0; // of the points that a polygon lies among
+constexpr double OVER_ALL = 66000.0;
+
 bool isShown(std::size_t k, const ViewSettings& settings)
 {
   return settings.shows(static_cast<std::uint16_t>(k + 1));
 }
 
-/// \a nearness: how far in front of the points that it lies among.
+/// \a nearness: how far in front of where it is it is drawn.
 vtkSmartPointer<vtkActor> actorOf(vtkPolyData* data, double nearness)
 {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -101,9 +105,9 @@ Props polygons(const std::vector<RegionOutline>& outlines,
         rings.add(hole, {});
     }
   const vtkSmartPointer<vtkActor> filled =
-      actorOf(apps::polygonMesh(outlines, colours), 66000.0);
+      actorOf(apps::polygonMesh(outlines, colours), OVER_NOISE);
   filled->GetProperty()->SetOpacity(FILLED);
-  return {filled, rings.draw(1.5f, 70000.0, false), rings.drawCorners(4.0f, 70000.0)};
+  return {filled, rings.draw(1.0f, OVER_ALL, false), rings.drawCorners(3.0f, OVER_ALL)};
 }
 
 Props hulls(const std::vector<RegionOutline>& outlines,
@@ -113,7 +117,7 @@ Props hulls(const std::vector<RegionOutline>& outlines,
   for (std::size_t k = 0; k < outlines.size(); ++k)
     rings.add(outlines[k].hull, colours[k]);
   // A rim sets them off from a plane of their own colour.
-  return {rings.draw(5.0f, 66000.0, false), rings.draw(3.0f, 70000.0, true)};
+  return {rings.draw(5.0f, OVER_ALL, false), rings.draw(3.0f, OVER_ALL, true)};
 }
 
 } // namespace
