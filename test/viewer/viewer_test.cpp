@@ -36,6 +36,7 @@ Outcome ViewerTest::drive(const std::string& input, const std::string& commands,
 {
   // No window manager: the window lies at the upper left, keys go to it once the pointer
   // is over it. xdotool speaks to the server as a keyboard and a mouse would (XTest).
+  // -r: on a machine under load a key would come up late enough to repeat itself.
   const std::string script = path("drive.sh");
   // Its first line of log says that it takes keys.
   write("drive.sh",
@@ -53,7 +54,7 @@ Outcome ViewerTest::drive(const std::string& input, const std::string& commands,
             "\nwait $viewer\nstatus=$?\ncat log\ncat errors >&2\n"
             "exit $status\n");
   return run("/usr/bin/env", {"-u", "DISPLAY", "xvfb-run", "-a", "-s",
-                              "-noreset -screen 0 1280x1024x24", "sh", script});
+                              "-noreset -r -screen 0 1280x1024x24", "sh", script});
 }
 
 io::ColourImage readPicture(const std::string& path)
