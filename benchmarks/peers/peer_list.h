@@ -17,6 +17,7 @@ std::vector<std::string> peersLeftOut();
 Peer makeOurs();
 Peer makePclMultiPlane();
 Peer makePclRansac();
+Peer makePeac();
 Peer makeOpencvPlane();
 Peer makeCgalRansac();
 
