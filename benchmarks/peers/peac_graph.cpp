@@ -60,25 +60,67 @@ void link(Graph& graph, int a, int b)
   graph.nodes[static_cast<std::size_t>(b)].neighbours.push_back(a);
 }
 
-/// Link a block with those on both sides of it unless one is missing or the normals of
-/// the outer two disagree: a crease. RejectEdge.
-void linkThrough(Graph& graph, int before, int block, int after,
-                 const Parameters& parameters)
-{
-  if (before < 0 || after < 0)
-    return;
-  for (const int node : {before, block, after})
-    if (!graph.is_in_use[static_cast<std::size_t>(node)])
-      return;
-  const PlanePatch& first = graph.nodes[static_cast<std::size_t>(before)].patch;
-  const PlanePatch& middle = graph.nodes[static_cast<std::size_t>(block)].patch;
-  const PlanePatch& last = graph.nodes[static_cast<std::size_t>(after)].patch;
-  if (std::abs(first.normal.dot(last.normal)) <
-      parameters.startCosine(middle.centre.z()))
-    return;
-  link(graph, before, block);
-  link(graph, block, after);
-}
+/// Walks along a row or a column of blocks and links them: three in a row, if none is
+/// missing and the normals of the outer two agree, RejectEdge. The next three start at
+/// the last of these, or, at a crease, one block on; what is left at the end is a pair.
+class ChainOfBlocks {
+public:
+  ChainOfBlocks(Graph& graph, const Parameters& parameters, int first, int stride,
+                int count)
+  : graph_(graph)
+  , parameters_(parameters)
+  , first_(first)
+  , stride_(stride)
+  , count_(count)
+  {}
+
+  void link()
+  {
+    for (int start = 0; start + 1 < count_;) {
+      const int last = std::min(start + 2, count_ - 1);
+      if (const int missing = lastMissing(start, last); missing >= start)
+        start = missing + 1;
+      else if (!agree(start, last))
+        ++start;
+      else
+        for (; start < last; ++start)
+          linkWithNext(start);
+    }
+  }
+
+private:
+  int node(int place) const { return first_ + place * stride_; }
+
+  const PlanePatch& patch(int place) const
+  {
+    return graph_.nodes[static_cast<std::size_t>(node(place))].patch;
+  }
+
+  /// The last place of a range whose block was rejected, less than the first: none.
+  int lastMissing(int first, int last) const
+  {
+    while (last >= first && graph_.is_in_use[static_cast<std::size_t>(node(last))])
+      --last;
+    return last;
+  }
+
+  bool agree(int start, int last) const
+  {
+    return std::abs(patch(start).normal.dot(patch(last).normal)) >=
+           parameters_.startCosine(patch(start + 1).centre.z());
+  }
+
+  void linkWithNext(int place)
+  {
+    const int a = node(place), b = node(place + 1);
+    graph_.nodes[static_cast<std::size_t>(a)].neighbours.push_back(b);
+    graph_.nodes[static_cast<std::size_t>(b)].neighbours.push_back(a);
+  }
+
+  Graph& graph_;
+  const Parameters& parameters_;
+  int first_, stride_, count_; // the blocks by their numbers
+};
 
 } // namespace
 
@@ -115,16 +157,13 @@ Graph makeGraph(const Cloud& cloud, const Parameters& parameters)
       graph.is_in_use[static_cast<std::size_t>(block)] =
           patch.mse < parameters.startMse(patch.centre.z());
     }
-  for (int block = 0; block < blocks; ++block) {
-    const auto [left, right, upper, lower] = graph.grid.neighbours(block);
-    linkThrough(graph, left, block, right, parameters);
-    linkThrough(graph, upper, block, lower, parameters);
-  }
-  for (Segment& node : graph.nodes) { // two centres may link the same pair
+  const int rows = graph.grid.rows(), columns = graph.grid.columns();
+  for (int row = 0; row < rows; ++row)
+    ChainOfBlocks(graph, parameters, row * columns, 1, columns).link();
+  for (int column = 0; column < columns; ++column)
+    ChainOfBlocks(graph, parameters, column, columns, rows).link();
+  for (Segment& node : graph.nodes)
     std::sort(node.neighbours.begin(), node.neighbours.end());
-    node.neighbours.erase(std::unique(node.neighbours.begin(), node.neighbours.end()),
-                          node.neighbours.end());
-  }
   return graph;
 }
 
