@@ -18,6 +18,7 @@ Peer makeOurs();
 Peer makePclMultiPlane();
 Peer makePclRansac();
 Peer makePeac();
+Peer makeCape();
 Peer makeOpencvPlane();
 Peer makeCgalRansac();
 
