@@ -10,21 +10,21 @@ namespace {
 
 constexpr double RADIANS = M_PI / 180.0; // a degree in radians
 
-/// Whether depth jumps more than once along a line of points of a cell.
-bool hasSteps(const Cloud& cloud, std::size_t first, std::size_t stride, int count,
-              double largest)
+/// Whether a line of points of a cell crosses a step: more than one of them jumps in
+/// depth from the last that did not. A single stray point is no step.
+bool hasStep(const Cloud& cloud, std::size_t first, std::size_t stride, int count,
+             double largest)
 {
-  int steps = 0;
-  float last = cloud[first].z;
-  for (int k = 1; k < count; ++k) {
+  int jumps = 0;
+  float last = NAN;
+  for (int k = 0; k < count; ++k) {
     const float z = cloud[first + static_cast<std::size_t>(k) * stride].z;
-    if (!std::isfinite(z))
-      continue;
-    if (std::isfinite(last) && std::abs(z - last) > largest)
-      ++steps;
-    last = z;
+    if (std::abs(z - last) >= largest)
+      ++jumps;
+    else if (std::isfinite(z))
+      last = z;
   }
-  return steps > 1;
+  return jumps > 1;
 }
 
 /// Between opposite corners, whichever two have a depth.
@@ -53,8 +53,8 @@ Cell fitCell(const Cloud& cloud, std::size_t first, const Parameters& parameters
   }
   const std::size_t middle = static_cast<std::size_t>(side / 2);
   if (sums.n < side * side / 2 ||
-      hasSteps(cloud, first + middle * width, 1, side, parameters.depth_step) ||
-      hasSteps(cloud, first + middle, width, side, parameters.depth_step))
+      hasStep(cloud, first + middle * width, 1, side, parameters.depth_step) ||
+      hasStep(cloud, first + middle, width, side, parameters.depth_step))
     return cell;
   cell.patch.fit();
   const double z = cell.patch.centre.z();
