@@ -26,10 +26,12 @@ std::vector<bool> touching(const std::vector<Segment>& segments, const BlockGrid
   return touch;
 }
 
+/// Whether the normals agree and the middle of each lies near the plane of the other.
 bool areOnePlane(const PlanePatch& a, const PlanePatch& b, const Parameters& parameters)
 {
   return a.normal.dot(b.normal) > std::cos(parameters.angle * M_PI / 180.0) &&
-         std::abs(a.distance(b.centre)) < parameters.merge_distance;
+         std::abs(a.distance(b.centre)) < parameters.merge_distance &&
+         std::abs(b.distance(a.centre)) < parameters.merge_distance;
 }
 
 } // namespace
