@@ -6,7 +6,7 @@ namespace pcl_mrf_planes::benchmarks {
 std::vector<Peer> allPeers()
 {
   std::vector<Peer> peers = {makeOurs(), makePclMultiPlane(), makePclRansac(),
-                             makePeac(), makeCape()};
+                             makePeac(), makeCape(),          makePlanarPatches()};
 #ifdef PCL_MRF_PLANES_WITH_OPENCV
   peers.push_back(makeOpencvPlane());
 #endif

@@ -19,6 +19,7 @@ Peer makePclMultiPlane();
 Peer makePclRansac();
 Peer makePeac();
 Peer makeCape();
+Peer makePlanarPatches();
 Peer makeOpencvPlane();
 Peer makeCgalRansac();
 
