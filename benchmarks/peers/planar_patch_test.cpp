@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "patch_rectangle.h"
 #include "planar_patches.h"
 #include "robust_statistics.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pcl_mrf_planes::benchmarks::patches {
 
@@ -26,31 +24,6 @@ Eigen::Vector3f medians(const std::vector<Eigen::Vector3f>& vectors,
     result[axis] = medianOf(values);
   }
   return result;
-}
-
-/// Sides of the rectangle around points, along the directions of their spread.
-Eigen::Vector2f sidesOf(const PointSet& set, const Patch& patch)
-{
-  const Eigen::Vector3f u = patch.normal.unitOrthogonal();
-  const Eigen::Vector3f v = patch.normal.cross(u);
-  Eigen::Matrix2f spread = Eigen::Matrix2f::Zero();
-  const auto onPlane = [&](int k) {
-    const Eigen::Vector3f p = set.points[static_cast<std::size_t>(k)] - patch.centre;
-    return Eigen::Vector2f(u.dot(p), v.dot(p));
-  };
-  for (const int k : patch.members)
-    spread += onPlane(k) * onPlane(k).transpose();
-  const float turn =
-      0.5f * std::atan2(2.0f * spread(0, 1), spread(0, 0) - spread(1, 1));
-  const Eigen::Rotation2Df rotation(-turn);
-  Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
-  Eigen::Vector2f high = -low;
-  for (const int k : patch.members) {
-    const Eigen::Vector2f p = rotation * onPlane(k);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return high - low;
 }
 
 } // namespace
@@ -90,7 +63,7 @@ bool Patch::passTest(const PointSet& set, const Parameters& parameters)
 
 float Patch::shorterSide(const PointSet& set) const
 {
-  return sidesOf(set, *this).minCoeff();
+  return PatchRectangle(set, *this).sides().minCoeff();
 }
 
 } // namespace pcl_mrf_planes::benchmarks::patches

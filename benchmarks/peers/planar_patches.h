@@ -81,4 +81,14 @@ std::vector<Patch> split(const PointSet& set, const Parameters& parameters);
 void growAndMerge(const PointSet& set, const Parameters& parameters,
                   std::vector<Patch>& patches);
 
+/** \brief Labels of the points of the patches. */
+Labels labelMembers(const PointSet& set, const std::vector<Patch>& patches,
+                    std::size_t size);
+
+/** \brief Labels of the points inside the boxes around the patches, which are all that
+ * Open3D gives: as large as the members, as thick as the distance of an inlier. A point in
+ * several goes to the nearest plane. */
+Labels labelBoxes(const PointSet& set, const std::vector<Patch>& patches,
+                  std::size_t size);
+
 } // namespace pcl_mrf_planes::benchmarks::patches

@@ -29,11 +29,9 @@ Labels segment(const Cloud::ConstPtr& cloud, const Values& values, double& milli
   const patches::PointSet set = patches::makePointSet(*cloud, parameters);
   std::vector<patches::Patch> found = patches::split(set, parameters);
   patches::growAndMerge(set, parameters, found);
-  Labels labels(cloud->size(), 0);
-  for (std::size_t k = 0; k < found.size(); ++k)
-    for (const int point : found[k].members)
-      labels[set.places[static_cast<std::size_t>(point)]] =
-          static_cast<std::uint16_t>(k + 1);
+  const auto label =
+      values.at("boxes") != 0.0 ? patches::labelBoxes : patches::labelMembers;
+  Labels labels = label(set, found, cloud->size());
   milliseconds = watch.milliseconds();
   return labels;
 }
@@ -43,18 +41,18 @@ Labels segment(const Cloud::ConstPtr& cloud, const Values& values, double& milli
 Peer makePlanarPatches()
 {
   // Angles in degrees, the others as in planar_patches.h.
+  const Values published = {
+      {"neighbours", 30},  {"min_share", 0.001},    {"normal_variance", 60},
+      {"coplanarity", 75}, {"outlier_ratio", 0.75}, {"min_edge", 0.01},
+      {"boxes", 0}};
+  Values boxes = published;
+  boxes["boxes"] = 1;
   return {
       "planar_patches",
       "robust planar patches (Araujo and Oliveira, 2020), our implementation of the "
       "paper",
-      {{"published",
-        "defaults of Open3D's DetectPlanarPatches()",
-        {{"neighbours", 30},
-         {"min_share", 0.001},
-         {"normal_variance", 60},
-         {"coplanarity", 75},
-         {"outlier_ratio", 0.75},
-         {"min_edge", 0.01}}}},
+      {{"published", "defaults of Open3D's DetectPlanarPatches()", published},
+       {"boxes", "the same, labels by the boxes that Open3D gives", boxes}},
       segment};
 }
 
