@@ -109,11 +109,13 @@ bool estimatePinholePose(const std::vector<Sighting>& sightings, SensorPose& pos
 
   const Eigen::Matrix3d left = projection.leftCols<3>();
   const Eigen::Vector3d centre = -left.partialPivLu().solve(projection.col(3));
+  // In units of the points' radius, from their middle. Parallel rays meet very far away or,
+  // by rounding, nowhere; NaN fails.
+  if (!(NARROWEST * centre.norm() <= 1.0))
+    return false;
   Eigen::Vector3d axis = left.row(2).transpose().normalized();
   if (axis.dot(-centre) < 0.0) // the points are in front of the camera
     axis = -axis;
-  if (!centre.allFinite() || !axis.allFinite())
-    return false;
   pose.origin = centre * points.radius + points.mean;
   pose.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis)
                       .toRotationMatrix();

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -322,6 +323,56 @@ TEST(RegionPolygonsTest, RaysThatCrossStillGiveValidPolygons)
       for (const PlanePolygon& patch : outline.patches)
         EXPECT_TRUE(isValidPolygon(flatten(patch, regions[0].plane)));
   }
+}
+
+TEST(RegionPolygonsTest, AColumnOfPointsWithoutNeighboursHasNoPolygon)
+{
+  // From one column no ray beside it is known: the patch has no width.
+  OrganizedPoints points;
+  points.resize(9, 12);
+  const std::vector<std::uint16_t> labels(points.size(), 0);
+  for (std::size_t y = 0; y < 12; ++y)
+    points.set(9 * y + 4, 0.2f, 0.1f * static_cast<float>(y), 2.0f);
+  const auto regions = gatherRegions(points, {{{0, 0, -1}, 2}}, labels, 0);
+  ASSERT_EQ(regions.size(), 1u);
+  const auto outlines = outlineRegions(points, regions);
+  ASSERT_EQ(outlines.size(), 1u);
+  EXPECT_TRUE(outlines[0].patches.empty());
+  EXPECT_TRUE(outlines[0].hull.empty());
+}
+
+TEST(PolygonSimplification, NothingIsNoPolygon)
+{
+  EXPECT_TRUE(convexHull({}).empty());
+  EXPECT_FALSE(isValidPolygon({}));
+  EXPECT_FALSE(isValidPolygon({{}}));
+}
+
+TEST(PolygonSimplification, HolesBehindOneThatIsLeftOutStay)
+{
+  const auto square = [](double x, double y, double side) {
+    return FlatRing{{x, y}, {x, y + side}, {x + side, y + side}, {x + side, y}};
+  };
+  const FlatPolygon simple =
+      simplifyPolygon({square(0, 0, 9), square(1, 1, 0.1), square(4, 4, 3)},
+                      FixedCorners(3, std::vector<std::uint8_t>(4)), 0.01, 0.5);
+  ASSERT_EQ(simple.size(), 2u);
+  EXPECT_NEAR(polygonArea(simple), 81.0 - 9.0, 1e-12);
+  EXPECT_NEAR(polygonArea({simple[0]}), 81.0, 1e-12) << "outer ring counterclockwise";
+}
+
+TEST(PolygonSimplification, ALoopWithinTheToleranceIsLeftOut)
+{
+  // The border comes back to (2, 4), where another ring meets it, by a small loop.
+  const FlatRing ring = {{0, 0},     {4, 0},     {4, 4}, {2, 4},
+                         {2.1, 4.1}, {1.9, 4.1}, {2, 4}, {0, 4}};
+  const FixedCorners fixed = {{0, 0, 0, 1, 0, 0, 1, 0}};
+  const FlatPolygon simple = simplifyPolygon({ring}, fixed, 0.5, 0.0);
+  ASSERT_EQ(simple.size(), 1u);
+  EXPECT_TRUE(isValidPolygon(simple));
+  EXPECT_NEAR(polygonArea(simple), 16.0, 1e-12);
+  EXPECT_EQ(std::count(simple[0].begin(), simple[0].end(), Eigen::Vector2d(2, 4)), 1)
+      << "a corner that must stay stays, once";
 }
 
 /// Area of the pixels of a pinhole camera, seen onto a plane: z^3 / (d f^2) each.

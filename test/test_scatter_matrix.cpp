@@ -220,6 +220,18 @@ TEST(PlaneFitComparisonTest, GeometricFitMovesWithThePoints)
   EXPECT_NEAR(at_home.rms, away.rms, 1e-9) << "a shift must not change the error";
 }
 
+TEST(PlaneFitComparisonTest, PointsAllAroundTheSensorHaveNoAlgebraicPlane)
+{
+  // The corners of an octahedron: by algebra the plane at infinity is the nearest.
+  const Points corners = {{9, 0, 0},  {-9, 0, 0}, {0, 8, 0},
+                          {0, -8, 0}, {0, 0, 7},  {0, 0, -7}};
+  EXPECT_FALSE(fitPlane(sumsOf(corners), PlaneFit::ALGEBRAIC).valid);
+  const PlaneFitResult geometric = fitPlane(sumsOf(corners), PlaneFit::GEOMETRIC);
+  ASSERT_TRUE(geometric.valid);
+  EXPECT_NEAR(std::abs(geometric.plane.normal.z()), 1.0, 1e-9) << "the shortest axis";
+  EXPECT_NEAR(geometric.plane.d, 0.0, 1e-9);
+}
+
 TEST_P(PlaneFitTest, FewPointsLinesAndSpotsHaveNoPlane)
 {
   const Eigen::Vector3d a(1, 2, 3);

@@ -2,6 +2,7 @@
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 #include <pcl_mrf_planes/sensor_pose.h>
 
+#include "scenes/random.h"
 #include "scenes/render.h"
 #include "scenes/scene_library.h"
 
@@ -93,6 +94,25 @@ TEST(EstimatePinholePose, RefusesWhatDoesNotDetermineACamera)
       scenes::render(lidar.scene, lidar.camera, scenes::SensorNoise::none(), 1);
   EXPECT_FALSE(estimatePinholePose(sightingsOf(scan), pose))
       << "a rotating lidar is no pinhole camera";
+}
+
+TEST(EstimatePinholePose, RefusesSpotsAndParallelRays)
+{
+  SensorPose pose;
+  scenes::Random random(4);
+  std::vector<Sighting> one_point(100);
+  std::vector<Sighting> one_pixel(100);
+  std::vector<Sighting> parallel(100);
+  for (std::size_t k = 0; k < 100; ++k) {
+    const Eigen::Vector2d pixel(random.uniform(0, 640), random.uniform(0, 480));
+    const Eigen::Vector3d point(pixel.x() / 100, pixel.y() / 100, random.uniform(1, 9));
+    one_point[k] = {Eigen::Vector3d(1, 2, 3), pixel};
+    one_pixel[k] = {point, Eigen::Vector2d(320, 240)};
+    parallel[k] = {point, pixel};
+  }
+  EXPECT_FALSE(estimatePinholePose(one_point, pose));
+  EXPECT_FALSE(estimatePinholePose(one_pixel, pose));
+  EXPECT_FALSE(estimatePinholePose(parallel, pose)) << "a camera infinitely far away";
 }
 
 TEST(MovedCloud, SegmentsTheSameThoughItsOriginIsNotStated)

@@ -42,7 +42,8 @@ PCL_MRF_PLANES_EXPORT bool plausibleOrigin(const std::vector<Sighting>& sighting
  *
  * \param[in] sightings at least six, not all on one plane
  * \param[out] pose set on success
- * \return false where no camera explains the points to a pixel: lidars, planar scenes
+ * \return false where no camera at a plausible origin explains the points to a pixel:
+ * lidars, planar scenes, parallel rays
  */
 PCL_MRF_PLANES_EXPORT bool estimatePinholePose(const std::vector<Sighting>& sightings,
                                                SensorPose& pose);

@@ -4,12 +4,10 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
+#include <unistd.h> // environ, too: g++ and clang++ define _GNU_SOURCE
 
 #include <fstream>
 #include <sstream>
-
-extern char** environ;
 
 namespace pcl_mrf_planes::test {
 

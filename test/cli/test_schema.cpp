@@ -4,8 +4,6 @@
 
 namespace pcl_mrf_planes::test {
 
-namespace fs = std::filesystem;
-
 class Schema : public BatchTest {
 protected:
   void SetUp() override
