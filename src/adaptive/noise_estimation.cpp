@@ -44,13 +44,16 @@ double unbiasedRms(const FittedPlane& p)
 /// as it needs.
 double typicalRms(std::vector<double>& rms, double p, double z)
 {
-  constexpr double QUIETEST = 0.2;  // of the percentile
-  constexpr double MOST = 2.2;      // seen on surfaces: 1.2 to 2
-  constexpr double ROUNDING = 1e-6; // of the coordinates, relative
+  constexpr std::size_t FEWEST = 60; // tiles for a low percentile
+  constexpr double QUIETEST = 0.2;   // of the percentile
+  constexpr double MOST = 2.2;       // seen on surfaces: 1.2 to 2
+  constexpr double ROUNDING = 1e-6;  // of the coordinates, relative
   const double typical = percentile(rms, p);
   rms.erase(std::remove_if(rms.begin(), rms.end(),
                            [&](double r) { return r < ROUNDING * z; }),
             rms.end());
+  if (rms.size() < FEWEST)
+    return typical;
   const double quiet = percentile(rms, QUIETEST * p);
   return std::min(typical, MOST * quiet);
 }
