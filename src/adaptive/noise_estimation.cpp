@@ -38,6 +38,28 @@ double unbiasedRms(const FittedPlane& p)
   return std::sqrt(unbiasedVariance(p));
 }
 
+/// That percentile of the tiles at one depth, as long as it can be noise: where more of them
+/// lie on no surface (far away in a laser scan nearly all do), what they show is no more than
+/// some times what the quietest of them show. Tiles without any spread are not asked: depth
+/// that is rounded to steps hides the noise within one. A tile that a step of depth crosses
+/// shows an eighth to a half of it, so these are quiet enough for each other. Orders the numbers
+/// as it needs.
+double typicalRms(std::vector<double>& rms, double p, double z)
+{
+  constexpr std::size_t FEWEST = 60; // tiles for a low percentile
+  constexpr double QUIETEST = 0.2;   // of the percentile
+  constexpr double MOST = 2.2;       // seen on surfaces: 1.2 to 2
+  constexpr double ROUNDING = 1e-6;  // of the coordinates, relative
+  const double typical = percentile(rms, p);
+  rms.erase(std::remove_if(rms.begin(), rms.end(),
+                           [&](double r) { return r < ROUNDING * z; }),
+            rms.end());
+  if (rms.size() < FEWEST)
+    return typical;
+  const double quiet = percentile(rms, QUIETEST * p);
+  return std::min(typical, MOST * quiet);
+}
+
 /// rms = a + c z^2 over depth bins, relative least squares, a and c not negative
 void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
 {
@@ -57,7 +79,7 @@ void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
     for (std::size_t i = i0; i < i1; ++i)
       rms.push_back(samples[i].rms);
     const double z = samples[(i0 + i1) / 2].z;
-    const double r = std::max(percentile(rms, p), 1e-7);
+    const double r = std::max(typicalRms(rms, p, z), 1e-7);
     const double u = 1 / r, v = z * z / r;
     s00 += u * u;
     s01 += u * v;
