@@ -31,6 +31,7 @@ METHODS = {
     'cgal_efficient_ransac': 'CGAL Efficient RANSAC',
     'peac': 'PEAC, from the paper',
     'cape': 'CAPE, from the paper',
+    'planar_patches': 'robust planar patches, from the paper',
 }
 COLOURS = ['#d62728', '#1f77b4', '#2ca02c', '#9467bd', '#ff7f0e', '#8c564b', '#17becf',
            '#e377c2', '#bcbd22', '#7f7f7f']
