@@ -4,17 +4,12 @@
 #include "label_colours.h"
 #include "output_file.h"
 #include "pictures.h"
+#include "polygon_mesh.h"
 
 #include <pcl_mrf_planes/io/cloud_fields.h>
 
-#include <vtkCellArray.h>
-#include <vtkContourTriangulator.h>
 #include <vtkNew.h>
 #include <vtkPLYWriter.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <array>
 #include <cmath>
@@ -61,50 +56,6 @@ private:
   std::array<pcl::PCLPointField, 3> fields_;
 };
 
-void addRing(const PlaneRing& ring, vtkPoints& points, vtkCellArray& lines)
-{
-  lines.InsertNextCell(static_cast<int>(ring.size()) + 1);
-  const vtkIdType first = points.GetNumberOfPoints();
-  for (const Eigen::Vector3d& corner : ring)
-    lines.InsertCellPoint(points.InsertNextPoint(corner.data()));
-  lines.InsertCellPoint(first);
-}
-
-/// Triangles between the rings of a patch.
-void addPatch(const PlanePolygon& patch, std::uint32_t label, vtkPoints& points,
-              vtkCellArray& triangles, vtkUnsignedCharArray& colours)
-{
-  vtkNew<vtkPoints> corners;
-  corners->SetDataTypeToDouble();
-  vtkNew<vtkCellArray> lines;
-  addRing(patch.outer, *corners, *lines);
-  for (const PlaneRing& hole : patch.holes)
-    addRing(hole, *corners, *lines);
-  vtkNew<vtkPolyData> rings;
-  rings->SetPoints(corners);
-  rings->SetLines(lines);
-  vtkNew<vtkContourTriangulator> triangulator;
-  triangulator->SetInputData(rings);
-  triangulator->Update();
-  vtkPolyData* mesh = triangulator->GetOutput();
-  const vtkIdType start = points.GetNumberOfPoints();
-  const auto colour = labelColour(label);
-  for (vtkIdType k = 0; k < mesh->GetNumberOfPoints(); ++k) {
-    points.InsertNextPoint(mesh->GetPoint(k));
-    colours.InsertNextTypedTuple(colour.data());
-  }
-  vtkIdType count = 0;
-  const vtkIdType* ids = nullptr;
-  vtkCellArray* cells = mesh->GetPolys();
-  cells->InitTraversal();
-  while (cells->GetNextCell(count, ids) != 0) {
-    std::vector<vtkIdType> moved(ids, ids + count);
-    for (vtkIdType& id : moved)
-      id += start;
-    triangles.InsertNextCell(count, moved.data());
-  }
-}
-
 } // namespace
 
 io::CloudFile withCoordinates(const io::CloudFile& file,
@@ -145,18 +96,10 @@ void writeConfidenceImage(const std::string& path, const std::vector<float>& con
 void writePolygonMesh(const std::string& path,
                       const std::vector<RegionOutline>& outlines)
 {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> triangles;
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetName("colour");
-  colours->SetNumberOfComponents(3);
+  std::vector<std::array<std::uint8_t, 3>> colours;
   for (std::size_t k = 0; k < outlines.size(); ++k)
-    for (const PlanePolygon& patch : outlines[k].patches)
-      addPatch(patch, static_cast<std::uint32_t>(k + 1), *points, *triangles, *colours);
-  vtkNew<vtkPolyData> mesh;
-  mesh->SetPoints(points);
-  mesh->SetPolys(triangles);
-  mesh->GetPointData()->SetScalars(colours);
+    colours.push_back(labelColour(static_cast<std::uint32_t>(k + 1)));
+  const vtkSmartPointer<vtkPolyData> mesh = polygonMesh(outlines, colours);
   writeAtomically(path, [&](const std::string& temporary) {
     vtkNew<vtkPLYWriter> writer;
     writer->SetFileName(temporary.c_str());

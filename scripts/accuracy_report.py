@@ -13,6 +13,7 @@ import argparse
 import matplotlib.pyplot as plt
 from matplotlib.ticker import LogLocator, NullFormatter
 
+import accuracy_programs as programs
 import accuracy_studies as studies
 from accuracy_tables import (
     DOC, LINES, METHODS, SETS, colour_of, group, in_digits, is_ours, label_of, labelled,
@@ -144,7 +145,8 @@ def result_block(rows, _):
 # Option -> mark of a block -> function of the CSV's rows and the machine's name. None: the
 # CSV has no such rows.
 BLOCKS = {
-    'peers': {'result': result_block, 'peers': peers_block},
+    'peers': {'result': result_block, 'peers': peers_block,
+              'programs': programs.programs_block, 'clutter': programs.clutter_block},
     'studies': {'ablation': studies.ablation_block,
                 'sensitivity': studies.sensitivity_block,
                 'noise': studies.noise_block},

@@ -29,6 +29,8 @@ METHODS = {
     'pcl_ransac': 'pcl::SACSegmentation, plane by plane',
     'opencv_rgbd_plane': 'cv::rgbd::RgbdPlane',
     'cgal_efficient_ransac': 'CGAL Efficient RANSAC',
+    'peac': 'PEAC, from the paper',
+    'cape': 'CAPE, from the paper',
 }
 COLOURS = ['#d62728', '#1f77b4', '#2ca02c', '#9467bd', '#ff7f0e', '#8c564b', '#17becf',
            '#e377c2', '#bcbd22', '#7f7f7f']

@@ -5,17 +5,18 @@
   limit_scenes.py BUILD
 
 BUILD is a build folder with the apps. What pcl_mrf_plane_scene does not make is traced here, ray
-by ray, and handed over as a depth image or an organized PCD. Needs python3-numpy.
+by ray, and handed over as a depth image or an organized PCD; pcl_mrf_plane_viewer takes the
+pictures. Needs python3-numpy and python3-pil.
 """
-import pathlib
-import subprocess
 import sys
 import tempfile
 
 import numpy
 from PIL import Image
 
-PICTURES = pathlib.Path(__file__).resolve().parent.parent / 'doc' / 'pictures'
+from viewer_pictures import Viewer, write_pcd
+
+SEGMENTATION = 'apps/pcl_mrf_plane_segmentation'
 WIDTH, HEIGHT = 320, 240
 FOCAL = 525 * WIDTH / 640
 CAMERA = f'{FOCAL},{FOCAL},{(WIDTH - 1) / 2},{(HEIGHT - 1) / 2},10000'
@@ -184,74 +185,56 @@ def lidar_wall(rays, origin, point, normal):
 # --- files -------------------------------------------------------------------------------
 
 
-def write_pcd(path, points):
-    height, width = points.shape[:2]
-    path.write_bytes(
-        (f'VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {width}\n'
-         f'HEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {width * height}\n'
-         'DATA binary\n').encode() + points.tobytes())
-
-
 def write_depth(path, depth):
     values = numpy.round(depth * 1e4)
     Image.fromarray(numpy.where(values < 65535, values, 0).astype('u2')).save(path)
 
 
 class Limits:
-    def __init__(self, build, folder):
-        self.apps = build / 'apps'
-        self.folder = folder
+    """Makes scenes and has them looked at: planes, and beside them colour and depth."""
 
-    def overlay(self, source, *options):
-        picture = self.folder / 'overlay.png'
-        subprocess.run([self.apps / 'pcl_mrf_plane_segmentation', source, '--overlay',
-                        picture, '--quiet', *options], check=True)
-        return Image.open(picture).convert('RGB')
+    def __init__(self, viewer):
+        self.viewer = viewer
 
-    def traced(self, scene, *options):
-        path = self.folder / f'{scene.__name__}.png'
+    def look(self, source, name, *options):
+        self.viewer.look(source, f'limit_{name}', 'f i i i', '900x460', *options)
+
+    def traced(self, scene):
+        path = self.viewer.folder / f'{scene.__name__}.png'
         write_depth(path, scene())
-        return self.overlay(path, '--camera', CAMERA, *options)
+        self.look(path, scene.__name__, '--camera', CAMERA)
 
-    def scanned(self, *motion):
-        path = self.folder / 'lidar.pcd'
-        write_pcd(path, lidar(*motion))
-        return self.overlay(path, '--wrap')
+    def merged_later(self, scene, name, tolerance):
+        """The same with another --merge-tolerance, by way of a parameter file."""
+        path = self.viewer.folder / f'{scene.__name__}.png'
+        self.viewer.run(SEGMENTATION, path, 'out.pcd', '--camera', CAMERA, '--quiet',
+                        '--merge-tolerance', tolerance, '--save-parameters', 'merge.txt')
+        self.look(path, name, '--camera', CAMERA, '--parameters', 'merge.txt')
 
-    def made(self, *options, width=WIDTH, height=HEIGHT):
-        path = self.folder / 'scene.pcd'
-        subprocess.run([self.apps / 'pcl_mrf_plane_scene', path, '--width', str(width),
-                        '--height', str(height), *options], check=True)
-        return self.overlay(path)
+    def scanned(self, name, *motion):
+        """A lidar's scan, from behind and above, in the labels of --wrap."""
+        write_pcd(self.viewer.folder / 'lidar.pcd', lidar(*motion))
+        self.viewer.run(SEGMENTATION, 'lidar.pcd', 'labelled.pcd', '--wrap', '--quiet')
+        self.viewer.look('labelled.pcd', f'limit_{name}', 'f 8', '640x460')
 
-
-def save(name, *pictures):
-    """One below the other, in few enough colours for a small file."""
-    gap = 6
-    height = sum(picture.height + gap for picture in pictures) - gap
-    whole = Image.new('RGB', (pictures[0].width, height), 'white')
-    top = 0
-    for picture in pictures:
-        whole.paste(picture, (0, top))
-        top += picture.height + gap
-    whole.quantize(128, dither=Image.Dither.NONE).save(PICTURES / f'limit_{name}.png',
-                                                       optimize=True)
+    def made(self, name, *options, width=WIDTH, height=HEIGHT):
+        self.viewer.scene('scene.pcd', width, height, *options)
+        self.look('scene.pcd', name)
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit('usage: limit_scenes.py BUILD')
     with tempfile.TemporaryDirectory() as folder:
-        limits = Limits(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(folder))
-        for scene in (person, glass, vault, bars, lens, far):
-            save(scene.__name__, limits.traced(scene))
-        save('relief', limits.traced(relief),
-             limits.traced(relief, '--merge-tolerance', '2'))
-        save('round', limits.made('--scene', 'cylinder_room', '--noise', '3'))
-        room_seen = limits.made('--seed', '0')
-        few = limits.made('--seed', '0', width=WIDTH // 2, height=HEIGHT // 2)
-        save('few_points', room_seen, few.resize(room_seen.size, Image.Resampling.NEAREST))
-        save('lidar', limits.scanned(0, 0), limits.scanned(10, 1))
+        limits = Limits(Viewer(sys.argv[1], folder))
+        for scene in (person, glass, vault, bars, lens, far, relief):
+            limits.traced(scene)
+        limits.merged_later(relief, 'relief_merged_later', 2)
+        limits.made('round', '--scene', 'cylinder_room', '--noise', 3)
+        limits.made('many_points', '--seed', 0)
+        limits.made('few_points', '--seed', 0, width=WIDTH // 2, height=HEIGHT // 2)
+        limits.scanned('lidar', 0, 0)
+        limits.scanned('lidar_turning', 10, 1)
 
 
 if __name__ == '__main__':

@@ -59,12 +59,17 @@ void OrganizedPoints::resolveDepthMeasure(DepthMeasure wanted)
   depth_measure = wanted;
   if (wanted != DepthMeasure::AUTO)
     return;
-  // Invalid points have z = 0, too.
-  std::uint32_t not_in_front = 0; // fewer than 2^31 points
-  for (const float depth : z)
-    not_in_front += depth <= 0.0f ? 1U : 0U;
-  const std::size_t points = countValid();
-  const std::size_t behind = not_in_front - (valid.size() - points);
+  // Some rows tell it: a laser scanner that sees behind itself does so in all of them.
+  constexpr std::size_t STEP = 4;
+  const auto columns = static_cast<std::size_t>(width);
+  std::uint32_t points = 0; // fewer than 2^31
+  std::uint32_t in_front = 0;
+  for (std::size_t row = 0; row < valid.size(); row += STEP * columns)
+    for (std::size_t i = row; i < row + columns; ++i) {
+      points += valid[i];
+      in_front += z[i] > 0.0f ? 1U : 0U; // invalid points have z = 0
+    }
+  const std::uint64_t behind = points - in_front;
   depth_measure =
       behind * 100 > points ? DepthMeasure::RANGE : DepthMeasure::OPTICAL_AXIS;
 }

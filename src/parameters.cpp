@@ -42,12 +42,16 @@ Parameters Parameters::fromProfile(Profile profile)
   parameters.method = profile == Profile::PAPER ? Method::PAPER : Method::ADAPTIVE;
   if (profile == Profile::FAST) {
     AdaptiveParameters& adaptive = parameters.adaptive;
-    adaptive.sampling = 2;
+    adaptive.sampling = 3;
+    adaptive.least_samples = 12000;
     // As large in the image as the three first tiles and half the window of all points.
     adaptive.levels = 3;
     adaptive.local_reach = 1;
-    adaptive.min_points = 30;
+    adaptive.min_points = 13;
     adaptive.min_evidence = 200.0;
+    adaptive.bend_angle = 24.0;
+    adaptive.support_reach = 2;
+    adaptive.none_cost = 4.0;
   }
   return parameters;
 }

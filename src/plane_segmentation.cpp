@@ -4,6 +4,8 @@
 #include <pcl_mrf_planes/belief_propagation.h>
 #include <pcl_mrf_planes/row_propagation.h>
 
+#include "adaptive/stage_observer.h"
+#include "adaptive/workspace.h"
 #include "region_gathering.h"
 #include "stage_timer.h"
 #include "threads.h"
@@ -85,9 +87,32 @@ void SegmentationReport::count(const OrganizedPoints& organized_points,
 PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
                                 const Parameters& parameters)
 {
+  PlaneSegmentation result;
+  PlaneSegmenter().segment(points, parameters, result);
+  return result;
+}
+
+PlaneSegmenter::PlaneSegmenter() = default;
+PlaneSegmenter::PlaneSegmenter(const PlaneSegmenter& /*other*/) {}
+PlaneSegmenter::PlaneSegmenter(PlaneSegmenter&& other) noexcept = default;
+PlaneSegmenter& PlaneSegmenter::operator=(const PlaneSegmenter& /*other*/)
+{
+  return *this; // each has memory of its own
+}
+PlaneSegmenter& PlaneSegmenter::operator=(PlaneSegmenter&& other) noexcept = default;
+PlaneSegmenter::~PlaneSegmenter() = default;
+
+void PlaneSegmenter::segment(const OrganizedPoints& points,
+                             const Parameters& parameters, PlaneSegmentation& result)
+{
   const ThreadTeam team(parameters.number_of_threads);
-  return parameters.method == Method::PAPER ? segmentAsInPaper(points, parameters)
-                                            : segmentAdaptively(points, parameters);
+  if (parameters.method == Method::PAPER) {
+    result = segmentAsInPaper(points, parameters);
+    return;
+  }
+  if (!workspace_)
+    workspace_ = std::make_unique<adaptive::Workspace>();
+  adaptive::segmentObserved(points, parameters, nullptr, *workspace_, result);
 }
 
 PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,

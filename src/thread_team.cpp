@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "thread_team.h"
 
+#include <pcl_mrf_planes/thread_scope.h>
+
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -222,5 +224,11 @@ ThreadTeam* ThreadTeam::ofThisThread()
 {
   return team_of_this_thread;
 }
+
+ThreadScope::ThreadScope(unsigned int threads)
+: team_(std::make_unique<ThreadTeam>(threads))
+{}
+
+ThreadScope::~ThreadScope() = default;
 
 } // namespace pcl_mrf_planes

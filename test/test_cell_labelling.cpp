@@ -36,7 +36,7 @@ struct Merged {
 
   TileRegions labelled() const
   {
-    return labelCells(regions, pyramid[0], noise, parameters);
+    return labelCells(regions, pyramid, noise, parameters);
   }
 };
 

@@ -108,13 +108,15 @@ TEST(OrganizedPointsTest, AutoTakesTheRangeWhenOnePercentLiesBehind)
 {
   for (const int behind : {0, 1, 2, 50}) {
     OrganizedPoints points;
-    points.resize(10, 12); // 100 valid
-    for (int i = 0; i < 100; ++i)
-      points.set(static_cast<std::size_t>(i), 1.0f, 0.0f, i < behind ? -2.0f : 2.0f);
+    points.resize(120, 9); // 100 of a row valid
+    for (int y = 0; y < points.height; ++y)
+      for (int x = 0; x < 100; ++x)
+        points.set(static_cast<std::size_t>(y * points.width + x), 1.0f, 0.0f,
+                   y % 4 == 0 && x < behind ? -2.0f : 2.0f);
     points.resolveDepthMeasure(DepthMeasure::AUTO);
     EXPECT_EQ(points.depth_measure,
               behind > 1 ? DepthMeasure::RANGE : DepthMeasure::OPTICAL_AXIS)
-        << behind << " of 100 points lie behind the sensor";
+        << behind << " of 100 points of each fourth row lie behind the sensor";
   }
   OrganizedPoints nothing;
   nothing.resize(3, 3);

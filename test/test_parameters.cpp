@@ -150,6 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         real("step_sigmas", &AdaptiveParameters::step_sigmas, 1e-6, 1e6),
         real("min_weight", &AdaptiveParameters::min_weight, 0, 1),
         whole("sampling", &AdaptiveParameters::sampling, 1, 8),
+        whole("least_samples", &AdaptiveParameters::least_samples, 0, 1e9),
         whole("passes", &AdaptiveParameters::passes, 0, 100000),
         whole("rounds", &AdaptiveParameters::rounds, 1, 10)));
 

@@ -12,6 +12,25 @@
 namespace pcl_mrf_planes::adaptive {
 namespace {
 
+TEST(SampledPointsTest, TheStepIsShorterWhereFewWouldBeLeft)
+{
+  const auto step = [](int width, int height, int sampling, int least) {
+    OrganizedPoints points;
+    points.resize(width, height);
+    AdaptiveParameters parameters;
+    parameters.sampling = sampling;
+    parameters.least_samples = least;
+    return samplingStep(points, parameters);
+  };
+  EXPECT_EQ(step(100, 50, 3, 0), 3) << "no least number";
+  EXPECT_EQ(step(100, 50, 3, 34 * 17), 3) << "as many as the step leaves";
+  EXPECT_EQ(step(100, 50, 3, 34 * 17 + 1), 2);
+  EXPECT_EQ(step(100, 50, 3, 50 * 25), 2);
+  EXPECT_EQ(step(100, 50, 3, 50 * 25 + 1), 1);
+  EXPECT_EQ(step(100, 50, 3, 1000000), 1) << "more than there are";
+  EXPECT_EQ(step(100, 50, 1, 1), 1);
+}
+
 TEST(SampledPointsTest, TakeEverySoManyth)
 {
   scenes::Random random(1);

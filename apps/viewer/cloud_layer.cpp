@@ -29,15 +29,15 @@ vtkSmartPointer<vtkActor> actorOf(vtkPolyData* data)
   return actor;
 }
 
-std::vector<std::size_t> shownPoints(const ViewFrame& frame,
-                                     const PointColours& colours, int step)
+std::vector<std::size_t> shownPoints(const Cloud& cloud, const PointColours& colours,
+                                     int step)
 {
   std::vector<std::size_t> shown;
-  for (int y = 0; y < frame.points.height; y += step)
-    for (int x = 0; x < frame.points.width; x += step) {
-      const auto i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.points.width) +
-          static_cast<std::size_t>(x);
+  const auto width = static_cast<int>(cloud.width);
+  for (int y = 0; y < static_cast<int>(cloud.height); y += step)
+    for (int x = 0; x < width; x += step) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x);
       if (colours.shown[i])
         shown.push_back(i);
     }
@@ -46,10 +46,10 @@ std::vector<std::size_t> shownPoints(const ViewFrame& frame,
 
 } // namespace
 
-vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& colours,
-                                    int step)
+vtkSmartPointer<vtkProp> cloudLayer(const Cloud& cloud, const PointColours& colours,
+                                    float size, int step)
 {
-  const std::vector<std::size_t> shown = shownPoints(frame, colours, step);
+  const std::vector<std::size_t> shown = shownPoints(cloud, colours, step);
   const auto count = static_cast<vtkIdType>(shown.size());
   vtkNew<vtkFloatArray> places;
   places->SetNumberOfComponents(3);
@@ -63,7 +63,7 @@ vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& 
   unsigned char* shade = shades->GetPointer(0);
   vtkIdType next = 0;
   for (const std::size_t i : shown) {
-    const pcl::PointXYZ& p = (*frame.cloud)[i];
+    const pcl::PointXYZ& p = cloud[i];
     place = std::copy(p.data, p.data + 3, place);
     shade = std::copy(colours.colours[i].begin(), colours.colours[i].end(), shade);
     ids->SetValue(next, next);
@@ -78,11 +78,11 @@ vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& 
   data->SetVerts(vertices);
   data->GetPointData()->SetScalars(shades);
   vtkSmartPointer<vtkActor> actor = actorOf(data);
-  actor->GetProperty()->SetPointSize(step == 1 ? 3.0f : 5.0f);
+  actor->GetProperty()->SetPointSize(size);
   return actor;
 }
 
-vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
+vtkSmartPointer<vtkProp> contourLayer(const Cloud& cloud,
                                       const std::vector<LabelContour>& contours,
                                       const ViewSettings& settings)
 {
@@ -94,7 +94,7 @@ vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
     const vtkIdType first = points->GetNumberOfPoints();
     lines->InsertNextCell(static_cast<int>(contour.points.size()) + 1);
     for (const int index : contour.points) {
-      const pcl::PointXYZ& p = (*frame.cloud)[static_cast<std::size_t>(index)];
+      const pcl::PointXYZ& p = cloud[static_cast<std::size_t>(index)];
       lines->InsertCellPoint(points->InsertNextPoint(p.data));
     }
     lines->InsertCellPoint(first);

@@ -16,13 +16,17 @@ namespace pcl_mrf_planes::viewer {
 
 using Props = std::vector<vtkSmartPointer<vtkProp>>;
 
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
 /** \brief The points that are shown, in their colours.
- * \param[in] step 2: only every second point of every second row, for the larger ones */
-vtkSmartPointer<vtkProp> cloudLayer(const ViewFrame& frame, const PointColours& colours,
-                                    int step = 1);
+ * \param[in] cloud as measured, or moved
+ * \param[in] size of a point, pixels
+ * \param[in] step 2: only every second point of every second row */
+vtkSmartPointer<vtkProp> cloudLayer(const Cloud& cloud, const PointColours& colours,
+                                    float size, int step = 1);
 
 /** \brief Contours as lines in one colour that stands out from the background. */
-vtkSmartPointer<vtkProp> contourLayer(const ViewFrame& frame,
+vtkSmartPointer<vtkProp> contourLayer(const Cloud& cloud,
                                       const std::vector<LabelContour>& contours,
                                       const ViewSettings& settings);
 
@@ -41,6 +45,13 @@ Props creaseLayer(const std::vector<PlaneCrease>& creases,
 /** \brief The angles between the normals, degrees, in the middle of the creases. */
 Props angleMarks(const std::vector<PlaneCrease>& creases, const ViewSettings& settings);
 
+/** \brief Polygons of the planes that are shown, see-through, with their rings; or their
+ * convex hulls as lines.
+ * \param[in] classes colour of each plane */
+Props shapeLayer(const std::vector<RegionOutline>& outlines,
+                 const std::vector<std::uint32_t>& classes,
+                 const ViewSettings& settings);
+
 /** \brief Every tile as a square on its points: filled in the colour of the plane that it
  * merged into; tiles that were not kept as gray outlines. */
 Props tileLayer(const ViewFrame& frame, const TileCells& cells);
@@ -55,7 +66,7 @@ vtkSmartPointer<vtkProp> energyLayer(const std::vector<double>& energy, int show
 
 /** \brief A bar with the colours of a scale and the values that they stand for, on a plate.
  * \param[in] right its right edge, in shares of the window */
-vtkSmartPointer<vtkProp> scaleLayer(const ColourScale& scale, double right, bool dark);
+Props scaleLayer(const ColourScale& scale, double right, bool dark);
 
 /** \brief Lines of text on a plate; (x, y) in shares of the window.
  * \param[in] from_top y is the upper edge, else the lower */

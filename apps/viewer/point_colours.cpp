@@ -45,10 +45,18 @@ double tileError(const TileCells& cells, std::size_t i)
   return cells.tiles[static_cast<std::size_t>(tile)].rms;
 }
 
+Eigen::Vector3d pointOf(const ViewFrame& frame, std::size_t i)
+{
+  return (*frame.cloud)[i].getVector3fMap().cast<double>();
+}
+
 std::vector<double> valuesOf(const ViewFrame& frame, const SegmentedView& view,
                              const TileCells& tiles, ColourMode mode)
 {
   std::vector<double> values(frame.points.size(), NOTHING);
+  std::vector<PlaneDeviations> deviations;
+  if (mode == ColourMode::DEVIATION && view.deviations)
+    deviations = view.deviations();
   std::vector<float> confidence;
   if (mode == ColourMode::CONFIDENCE && view.confidence)
     confidence = view.confidence();
@@ -61,6 +69,10 @@ std::vector<double> valuesOf(const ViewFrame& frame, const SegmentedView& view,
       values[i] = 1000.0 * std::abs(distanceToPlane(frame, view, i));
     else if (mode == ColourMode::TILE_ERROR && i < tiles.tile_of_point.size())
       values[i] = 1000.0 * tileError(tiles, i);
+    else if (mode == ColourMode::DEVIATION && view.labels[i] != 0 &&
+             view.labels[i] <= deviations.size())
+      values[i] =
+          1000.0 * deviationAt(pointOf(frame, i), deviations[view.labels[i] - 1u]);
     else if (mode == ColourMode::CONFIDENCE && i < confidence.size() &&
              view.labels[i] != 0)
       values[i] = static_cast<double>(confidence[i]);
@@ -73,6 +85,9 @@ ColourScale scaleOf(ColourMode mode, const std::vector<double>& values)
   if (mode == ColourMode::CONFIDENCE)
     return {"confidence", 0.0, 1.0};
   const Range range = rangeOf(values);
+  if (mode == ColourMode::DEVIATION) // of planes near and far, large and small
+    return {"standard deviation of the plane there, mm", std::max(1e-6, range.low),
+            std::max(2e-6, range.high), true};
   const char* quantity = mode == ColourMode::DEPTH ? "depth, m"
                          : mode == ColourMode::DISTANCE
                              ? "distance to the plane, mm"
@@ -88,9 +103,7 @@ void colourByValue(const ViewFrame& frame, const SegmentedView& view,
   const ColourScale scale = same_scale ? *same_scale : scaleOf(mode, values);
   for (std::size_t i = 0; i < values.size(); ++i)
     result.colours[i] =
-        std::isfinite(values[i])
-            ? rampColour((values[i] - scale.low) / (scale.high - scale.low))
-            : NO_VALUE;
+        std::isfinite(values[i]) ? rampColour(scale.shareOf(values[i])) : NO_VALUE;
   result.scale = scale;
   result.legend = "colour: " + scale.quantity + "; grey none";
 }
@@ -105,6 +118,14 @@ void colourByPlane(const SegmentedView& view, const std::vector<std::uint32_t>& 
   for (std::size_t i = 0; i < view.labels.size(); ++i)
     result.colours[i] = palette[view.labels[i]];
   result.legend = "colour: plane, grey none";
+}
+
+void colourByGivenLabel(const ViewFrame& frame, PointColours& result)
+{
+  for (std::size_t i = 0; i < frame.given.size(); ++i)
+    result.colours[i] = apps::labelColour(frame.given[i]);
+  result.legend = frame.given.empty() ? "colour: this file has no labels of its own"
+                                      : "colour: label of the file, grey none";
 }
 
 void applySelection(const ViewFrame& frame, const SegmentedView& view,
@@ -123,6 +144,12 @@ void applySelection(const ViewFrame& frame, const SegmentedView& view,
 }
 
 } // namespace
+
+double ColourScale::shareOf(double value) const
+{
+  return logarithmic ? std::log(std::max(value, low) / low) / std::log(high / low)
+                     : (value - low) / (high - low);
+}
 
 io::Colour rampColour(double share)
 {
@@ -159,6 +186,8 @@ PointColours colourPoints(const ViewFrame& frame, const SegmentedView& view,
   }
   else if (settings.mode == ColourMode::OWN)
     result.legend = "colour: this cloud has none of its own";
+  else if (settings.mode == ColourMode::GIVEN_LABEL)
+    colourByGivenLabel(frame, result);
   else
     colourByValue(frame, view, tiles, settings.mode, same_scale, result);
   applySelection(frame, view, settings, result);

@@ -16,6 +16,10 @@ struct ColourScale {
   std::string quantity; ///< with its unit
   double low = 0.0;     ///< at share 0
   double high = 1.0;
+  bool logarithmic = false; ///< equal steps are equal factors
+
+  /** \brief Place of a value on the ramp, 0 to 1 within the scale. */
+  double shareOf(double value) const;
 };
 
 /** \brief Colours of all points, and what they mean. */

@@ -4,6 +4,7 @@
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -40,15 +41,26 @@ std::vector<PlaneDeviations> deviationsOf(const Segmentation& segmentation)
   for (const PlaneUncertainty& uncertainty : uncertainties) {
     if (!uncertainty.valid) {
       constexpr double UNKNOWN = std::numeric_limits<double>::infinity();
-      deviations.push_back({UNKNOWN, UNKNOWN});
+      deviations.push_back({UNKNOWN, UNKNOWN, Eigen::Matrix4d::Constant(UNKNOWN)});
       continue;
     }
     const Eigen::Matrix2d turns = uncertainty.minimal.topLeftCorner<2, 2>();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(turns);
     deviations.push_back({std::sqrt(std::max(0.0, solver.eigenvalues()[1])),
-                          std::sqrt(std::max(0.0, uncertainty.minimal(2, 2)))});
+                          std::sqrt(std::max(0.0, uncertainty.minimal(2, 2))),
+                          uncertainty.covariance});
   }
   return deviations;
+}
+
+/// Two centimetres are seen, and no more corners than they need.
+OutlineParameters outlineParameters()
+{
+  OutlineParameters parameters;
+  parameters.tolerance = 0.02;
+  parameters.min_points = 40;
+  parameters.min_hole_area = 0.002;
+  return parameters;
 }
 
 /// Works something out when it is asked for the first time: every picture asks again.
@@ -78,6 +90,7 @@ SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
 {
   const auto segmentation = std::make_shared<Segmentation>();
   segmentation->setParameters(parameters);
+  segmentation->setOutlineParameters(outlineParameters());
   segmentation->setInputCloud(frame.cloud);
   std::vector<pcl::ModelCoefficients> models;
   std::vector<pcl::PointIndices> inliers, label_indices;
@@ -103,6 +116,16 @@ SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
     segmentation->computeCreases(creases);
     return creases;
   });
+  view.outlines = once([segmentation] {
+    std::vector<RegionOutline> outlines;
+    segmentation->computeOutlines(outlines);
+    return outlines;
+  });
+  view.projected = once([segmentation] {
+    const pcl::PointCloud<pcl::PointXYZ>::Ptr moved(new pcl::PointCloud<pcl::PointXYZ>);
+    segmentation->projectOntoPlanes(*moved, ProjectionWay::RAY);
+    return pcl::PointCloud<pcl::PointXYZ>::ConstPtr(moved);
+  });
   view.deviations = once([segmentation] { return deviationsOf(*segmentation); });
   return view;
 }
@@ -116,6 +139,13 @@ double distanceToPlane(const ViewFrame& frame, const SegmentedView& view,
   const ViewPlane& plane = view.planes[label - 1u];
   const pcl::PointXYZ& p = (*frame.cloud)[index];
   return plane.normal.dot(Eigen::Vector3d(p.x, p.y, p.z)) + plane.d;
+}
+
+double deviationAt(const Eigen::Vector3d& point, const PlaneDeviations& deviations)
+{
+  // Of n p + d, to first order.
+  const Eigen::Vector4d place = point.homogeneous();
+  return std::sqrt(std::max(0.0, place.dot(deviations.covariance * place)));
 }
 
 } // namespace pcl_mrf_planes::viewer

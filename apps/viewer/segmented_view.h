@@ -5,6 +5,7 @@
 
 #include <pcl_mrf_planes/parameters.h>
 #include <pcl_mrf_planes/plane_creases.h>
+#include <pcl_mrf_planes/region_polygons.h>
 
 #include <Eigen/Core>
 
@@ -32,6 +33,7 @@ struct ViewPlane {
 struct PlaneDeviations {
   double normal = 0.0; ///< about the axis that is known least, radians
   double offset = 0.0; ///< of d, metres
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero(); ///< of (a, b, c, d)
 };
 
 /** \brief A segmented frame, by whatever method. */
@@ -46,6 +48,10 @@ struct SegmentedView {
   std::function<std::vector<PlaneDeviations>()> deviations;
   /// Where planes meet, in the frame of the cloud; as above.
   std::function<std::vector<PlaneCrease>()> creases;
+  /// Patches with holes, and convex hulls; as above.
+  std::function<std::vector<RegionOutline>()> outlines;
+  /// The cloud with its points moved onto their planes along their rays; as above.
+  std::function<pcl::PointCloud<pcl::PointXYZ>::ConstPtr()> projected;
 
   double totalMs() const;
 };
@@ -60,5 +66,9 @@ SegmentedView segmentView(const ViewFrame& frame, const Parameters& parameters,
  * there is none. */
 double distanceToPlane(const ViewFrame& frame, const SegmentedView& view,
                        std::size_t index);
+
+/** \brief One standard deviation of the place of a plane where \a point lies on it, along
+ * the normal, metres. */
+double deviationAt(const Eigen::Vector3d& point, const PlaneDeviations& deviations);
 
 } // namespace pcl_mrf_planes::viewer

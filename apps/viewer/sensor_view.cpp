@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sensor_view.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace pcl_mrf_planes::viewer {
@@ -70,6 +73,78 @@ SensorView scanView(const OrganizedPoints& points, double reach)
   return view;
 }
 
+/// From the frame of the sensor to that of the cloud.
+Eigen::Isometry3d poseOf(const ViewFrame& frame)
+{
+  Eigen::Quaterniond turn = frame.cloud->sensor_orientation_.cast<double>();
+  if (!(turn.norm() > 0.5 && turn.norm() < 2.0)) // an unset one is no rotation
+    turn.setIdentity();
+  turn.normalize();
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = turn.toRotationMatrix();
+  pose.translation() = frame.cloud->sensor_origin_.head<3>().cast<double>();
+  return pose;
+}
+
+SensorView moved(const SensorView& view, const Eigen::Isometry3d& pose)
+{
+  SensorView result = view;
+  result.position = pose * view.position;
+  result.focus = pose * view.focus;
+  result.up = pose.linear() * view.up;
+  return result;
+}
+
+bool goesAround(const OrganizedPoints& points)
+{
+  return points.depth_measure == DepthMeasure::RANGE;
+}
+
+/// Up and forward of the sensor, in its own frame.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> axesOf(const OrganizedPoints& points)
+{
+  if (!goesAround(points))
+    return {-Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  const Eigen::Vector3d up = axisOf(points);
+  return {up, forwardOf(points, up)};
+}
+
+/// Half of what lies along \a axis, and its middle; a few points at either end may be stray.
+std::pair<double, double> extentAlong(const OrganizedPoints& points,
+                                      const Eigen::Vector3d& axis)
+{
+  std::vector<double> places;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points.valid[i] != 0)
+      places.push_back(axis.dot(
+          Eigen::Vector3f(points.x[i], points.y[i], points.z[i]).cast<double>()));
+  const double low = quantile(places, 0.003);
+  const double high = quantile(places, 0.997);
+  return {std::max(1e-6, 0.5 * (high - low)), 0.5 * (high + low)};
+}
+
+/// All in the frame of the sensor.
+SensorView lookAlong(const OrganizedPoints& points, const Eigen::Vector3d& normal)
+{
+  constexpr double FAR = 60.0; // in extents: hardly a perspective
+  constexpr double ROOM = 1.1; // for the stray ones, and for points that are moved
+  constexpr double ASTRAY = 0.8;
+  const auto [up, forward] = axesOf(points);
+  const Eigen::Vector3d wanted = std::abs(normal.dot(up)) > ASTRAY ? forward : up;
+  SensorView view;
+  view.up = (wanted - wanted.dot(normal) * normal).normalized();
+  const Eigen::Vector3d right = view.up.cross(normal);
+  const auto [half_across, x] = extentAlong(points, right);
+  const auto [half_along, y] = extentAlong(points, view.up);
+  const auto [half_deep, z] = extentAlong(points, normal);
+  view.focus = x * right + y * view.up + z * normal;
+  const double distance = FAR * std::max({half_across, half_along, half_deep});
+  view.position = view.focus + distance * normal;
+  view.across = ROOM * half_across / (distance - half_deep);
+  view.along = ROOM * half_along / (distance - half_deep);
+  return view;
+}
+
 } // namespace
 
 SensorView sensorView(const ViewFrame& frame)
@@ -84,26 +159,28 @@ SensorView sensorView(const ViewFrame& frame)
     across.push_back(std::abs(static_cast<double>(points.x[i])) / z);
     along.push_back(std::abs(static_cast<double>(points.y[i])) / z);
   }
-  Eigen::Quaterniond turn = frame.cloud->sensor_orientation_.cast<double>();
-  if (!(turn.norm() > 0.5 && turn.norm() < 2.0)) // an unset one is no rotation
-    turn.setIdentity();
-  turn.normalize();
-  const Eigen::Vector3d origin = frame.cloud->sensor_origin_.head<3>().cast<double>();
-  if (points.depth_measure == DepthMeasure::RANGE) {
-    SensorView view = scanView(points, quantile(depths, 0.75));
-    view.focus = origin + turn * view.focus;
-    view.position = origin + turn * view.position;
-    view.up = turn * view.up;
-    return view;
-  }
+  const Eigen::Isometry3d pose = poseOf(frame);
+  if (goesAround(points))
+    return moved(scanView(points, quantile(depths, 0.75)), pose);
   const double depth = quantile(depths, 0.5);
   SensorView view;
-  view.focus = origin + turn * Eigen::Vector3d(0.0, 0.0, depth);
-  view.position = origin - turn * Eigen::Vector3d(0.0, 0.0, 0.05 * depth);
-  view.up = turn * -Eigen::Vector3d::UnitY();
+  view.focus = Eigen::Vector3d(0.0, 0.0, depth);
+  view.position = Eigen::Vector3d(0.0, 0.0, -0.05 * depth);
+  view.up = -Eigen::Vector3d::UnitY();
   view.across = std::min(2.0, quantile(across, 0.99));
   view.along = std::min(2.0, quantile(along, 0.99));
-  return view;
+  return moved(view, pose);
+}
+
+SensorView viewAlong(const ViewFrame& frame, const Eigen::Vector3d& normal)
+{
+  const Eigen::Isometry3d pose = poseOf(frame);
+  return moved(lookAlong(frame.points, pose.linear().transpose() * normal), pose);
+}
+
+SensorView viewFromAbove(const ViewFrame& frame)
+{
+  return moved(lookAlong(frame.points, axesOf(frame.points).first), poseOf(frame));
 }
 
 } // namespace pcl_mrf_planes::viewer

@@ -20,4 +20,12 @@ struct SensorView {
  * around the sensor, from above. */
 SensorView sensorView(const ViewFrame& frame);
 
+/** \brief From far along \a normal (of length 1, frame of the cloud), so that all is seen
+ * and planes that stand on it are lines; the sensor's up is up, or what lies ahead of it
+ * where it looks along the normal. */
+SensorView viewAlong(const ViewFrame& frame, const Eigen::Vector3d& normal);
+
+/** \brief The same down the sensor's own up. */
+SensorView viewFromAbove(const ViewFrame& frame);
+
 } // namespace pcl_mrf_planes::viewer

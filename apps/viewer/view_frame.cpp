@@ -19,6 +19,9 @@ ViewFrame readFrame(const io::FrameSource& source)
   view.name = source.name;
   view.colours = std::move(frame.colours);
   try {
+    view.given.assign(frame.truth.begin(), frame.truth.end());
+    if (view.given.empty())
+      view.given = io::labels(frame.file);
     view.cloud = io::coordinates(frame.file);
     view.points = apps::inSensorFrame(*view.cloud, DepthMeasure::AUTO);
   }

@@ -7,6 +7,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct ViewFrame {
   std::string name;
   pcl::PointCloud<pcl::PointXYZ>::Ptr cloud; ///< organized, in its own frame
   std::vector<io::Colour> colours;           ///< one for each point, or none
-  OrganizedPoints points;                    ///< the same in the frame of its sensor
+  std::vector<std::uint32_t> given; ///< labels that came with it: 0 none; or empty
+  OrganizedPoints points;           ///< the same in the frame of its sensor
 };
 
 /** \brief Read a frame.

@@ -5,7 +5,8 @@ namespace pcl_mrf_planes::benchmarks {
 
 std::vector<Peer> allPeers()
 {
-  std::vector<Peer> peers = {makeOurs(), makePclMultiPlane(), makePclRansac()};
+  std::vector<Peer> peers = {makeOurs(), makePclMultiPlane(), makePclRansac(),
+                             makePeac(), makeCape(),          makePlanarPatches()};
 #ifdef PCL_MRF_PLANES_WITH_OPENCV
   peers.push_back(makeOpencvPlane());
 #endif

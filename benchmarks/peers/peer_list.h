@@ -17,6 +17,9 @@ std::vector<std::string> peersLeftOut();
 Peer makeOurs();
 Peer makePclMultiPlane();
 Peer makePclRansac();
+Peer makePeac();
+Peer makeCape();
+Peer makePlanarPatches();
 Peer makeOpencvPlane();
 Peer makeCgalRansac();
 

@@ -15,6 +15,8 @@ struct PCL_MRF_PLANES_EXPORT AdaptiveParameters {
   /// Every so many-th point of every so many-th row is segmented, the others take labels
   /// from around them; 1 (all) to 8. min_points and min_evidence count sampled points.
   int sampling = 1;
+  /// A step so long that fewer points than this would be left is made shorter; 0 to 1e9.
+  int least_samples = 0;
 
   /// \name Tiles of several sizes
   ///@{

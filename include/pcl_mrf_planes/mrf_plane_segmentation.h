@@ -387,8 +387,11 @@ private:
   using SensorPose = pcl_mrf_planes::SensorPose;
 
   /// Runs \a fill on a good result; reports what went wrong otherwise.
+  /// \return whether there is a result
   template <typename Fill>
-  void run(const Fill& fill);
+  bool run(const Fill& fill);
+  template <typename Fill>
+  bool tryToSegment(const Fill& fill);
 
   bool checkInput() const;
   SensorPose statedPose() const;
@@ -430,6 +433,7 @@ private:
   std::vector<pcl_mrf_planes::PlaneRegion> wholes_;
   SensorPose pose_; ///< of the last run
   pcl_mrf_planes::OrganizedPoints points_;
+  pcl_mrf_planes::PlaneSegmenter segmenter_;
   pcl_mrf_planes::PlaneSegmentation result_;
 };
 

@@ -41,6 +41,21 @@ struct PCL_MRF_PLANES_EXPORT OrganizedPoints {
   /** \brief Set the size; all points become invalid. */
   void resize(int new_width, int new_height);
 
+  /** \brief The same without clearing: all points are to be set.
+   * \return how many there are */
+  std::size_t setSize(int new_width, int new_height)
+  {
+    width = new_width;
+    height = new_height;
+    const std::size_t count =
+        static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height);
+    x.resize(count);
+    y.resize(count);
+    z.resize(count);
+    valid.resize(count);
+    return count;
+  }
+
   /** \brief Store a point of the sensor frame at \a index; one that is not finite or
    * beyond FARTHEST stays invalid. */
   void set(std::size_t index, float px, float py, float pz)
@@ -109,26 +124,12 @@ struct PCL_MRF_PLANES_EXPORT OrganizedPoints {
     return depth_measure == DepthMeasure::RANGE ? point.norm() : std::abs(point.z());
   }
 
-  /** \brief Decide AUTO from the points: a camera sees nothing behind itself. */
+  /** \brief Decide AUTO from the points of every fourth row: a camera sees nothing behind
+   * itself. */
   void resolveDepthMeasure(DepthMeasure wanted);
 
   /** \brief Number of valid points. */
   std::size_t countValid() const;
-
-private:
-  /// Points that were there before stay. \return how many there are now
-  std::size_t setSize(int new_width, int new_height)
-  {
-    width = new_width;
-    height = new_height;
-    const std::size_t count =
-        static_cast<std::size_t>(new_width) * static_cast<std::size_t>(new_height);
-    x.resize(count);
-    y.resize(count);
-    z.resize(count);
-    valid.resize(count);
-    return count;
-  }
 };
 
 } // namespace pcl_mrf_planes

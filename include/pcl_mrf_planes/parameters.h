@@ -39,7 +39,7 @@ enum class Method {
 /** \brief Named sets of parameter values. */
 enum class Profile {
   DEFAULT, ///< the best segments: Method::ADAPTIVE
-  FAST,    ///< the same on a quarter of the points, for every point
+  FAST,    ///< the same on every third point of every third row, for every point
   PAPER    ///< the paper, equation by equation, with the values of its section V
 };
 

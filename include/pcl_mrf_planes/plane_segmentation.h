@@ -45,6 +45,7 @@ struct PCL_MRF_PLANES_EXPORT SegmentationReport {
 
 namespace adaptive {
 struct BlockNoise;
+struct Workspace;
 } // namespace adaptive
 
 /** \brief Result of a run, in the sensor frame. */
@@ -64,6 +65,35 @@ struct PCL_MRF_PLANES_EXPORT PlaneSegmentation {
  */
 PCL_MRF_PLANES_EXPORT PlaneSegmentation segmentPlanes(const OrganizedPoints& points,
                                                       const Parameters& parameters);
+
+/** \brief Segments one cloud after the other as segmentPlanes() does each, in memory that it
+ * keeps in between: some 15 MB for 640x480 points.
+ *
+ * A copy has memory of its own. An object is for one thread at a time. */
+class PCL_MRF_PLANES_EXPORT PlaneSegmenter {
+public:
+  /** \brief Without memory yet. */
+  PlaneSegmenter();
+  /** \brief Without memory yet: there is nothing else to copy. */
+  PlaneSegmenter(const PlaneSegmenter& other);
+  /** \brief With the memory of the other. */
+  PlaneSegmenter(PlaneSegmenter&& other) noexcept;
+  /** \brief Changes nothing: each keeps its memory. */
+  PlaneSegmenter& operator=(const PlaneSegmenter& other);
+  /** \brief Takes the memory of the other. */
+  PlaneSegmenter& operator=(PlaneSegmenter&& other) noexcept;
+  ~PlaneSegmenter();
+
+  /** \brief The same as segmentPlanes().
+   * \param[in] points the cloud in the sensor frame
+   * \param[in] parameters must pass Parameters::validate()
+   * \param[in,out] result is replaced; the memory of the one before is used again */
+  void segment(const OrganizedPoints& points, const Parameters& parameters,
+               PlaneSegmentation& result);
+
+private:
+  std::unique_ptr<adaptive::Workspace> workspace_; ///< null until it is needed
+};
 
 /** \brief Method::PAPER: section IV of the paper in one function.
  * \param[in] points the cloud in the sensor frame

@@ -3,6 +3,7 @@
 
 #include <pcl/common/io.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -112,6 +113,53 @@ std::vector<Colour> colours(const CloudFile& file)
       result[i][channel] =
           static_cast<std::uint8_t>((packed >> (16 - 8 * channel)) & 0xff);
   }
+  return result;
+}
+
+namespace {
+
+/// A whole number of a field; less than 0 is 0.
+template <typename Number>
+std::uint32_t readNumber(const std::uint8_t* bytes)
+{
+  Number number{};
+  std::memcpy(&number, bytes, sizeof number);
+  return static_cast<std::uint32_t>(std::max(number, Number{0}));
+}
+
+using ReadNumber = std::uint32_t (*)(const std::uint8_t*);
+
+ReadNumber readerOf(const pcl::PCLPointField& field)
+{
+  switch (field.count == 1 ? field.datatype : 0) {
+  case pcl::PCLPointField::INT8:
+    return readNumber<std::int8_t>;
+  case pcl::PCLPointField::UINT8:
+    return readNumber<std::uint8_t>;
+  case pcl::PCLPointField::INT16:
+    return readNumber<std::int16_t>;
+  case pcl::PCLPointField::UINT16:
+    return readNumber<std::uint16_t>;
+  case pcl::PCLPointField::INT32:
+    return readNumber<std::int32_t>;
+  case pcl::PCLPointField::UINT32:
+    return readNumber<std::uint32_t>;
+  default:
+    return nullptr;
+  }
+}
+
+} // namespace
+
+std::vector<std::uint32_t> labels(const CloudFile& file)
+{
+  const auto* field = findField(file.cloud, LABEL);
+  const ReadNumber read = field == nullptr ? nullptr : readerOf(*field);
+  if (read == nullptr)
+    return {};
+  std::vector<std::uint32_t> result(pointCount(file.cloud));
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = read(&file.cloud.data[i * file.cloud.point_step + field->offset]);
   return result;
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recipe for Conan 2: conan create packaging/conan. Libraries only; not tried by the tests."""
+"""Recipe for Conan 2: conan create packaging/conan. Libraries only. It was never run by Conan
+itself, which Debian does not have; see packaging/README.md for what is tested."""
 import os
 
 from conan import ConanFile
@@ -12,6 +13,7 @@ class PclMrfPlanes(ConanFile):
     version = "0.1.0"
     description = "Plane segmentation of organized point clouds by a Markov random field"
     license = "BSD-3-Clause"
+    package_type = "library"
     settings = "os", "compiler", "build_type", "arch"
     options = {"shared": [True, False], "fPIC": [True, False]}
     default_options = {"shared": True, "fPIC": True}
@@ -32,14 +34,26 @@ class PclMrfPlanes(ConanFile):
         self.requires("libpng/1.6.43")
         self.requires("yaml-cpp/0.8.0")
 
+    def configure(self):
+        if self.options.shared:
+            self.options.rm_safe("fPIC")
+
     def layout(self):
         cmake_layout(self)
 
     def generate(self):
-        CMakeDeps(self).generate()
+        dependencies = CMakeDeps(self)
+        # Named as Highway's own CMake package names itself.
+        dependencies.set_property("highway", "cmake_file_name", "hwy")
+        dependencies.set_property("highway", "cmake_target_name", "hwy::hwy")
+        dependencies.generate()
         toolchain = CMakeToolchain(self)
         toolchain.cache_variables["PCL_MRF_PLANES_APPS"] = False
         toolchain.cache_variables["PCL_MRF_PLANES_TESTS"] = False
+        # Variables of PCL's and CMake's own files, which those of Conan do not set.
+        toolchain.cache_variables["PCL_COMMON_LIBRARIES"] = "PCL::common"
+        toolchain.cache_variables["PCL_IO_LIBRARIES"] = "PCL::io"
+        toolchain.cache_variables["HDF5_C_LIBRARIES"] = "hdf5::hdf5"
         toolchain.generate()
 
     def build(self):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # An overlay port for this source tree: vcpkg install pcl-mrf-planes
-# --overlay-ports=packaging/vcpkg. Libraries only; not tried by the tests.
+# --overlay-ports=packaging/vcpkg. Libraries only. It was never run by vcpkg itself, which Debian
+# does not have; see packaging/README.md for what is tested.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 
 vcpkg_cmake_configure(SOURCE_PATH "${SOURCE_PATH}"

@@ -12,6 +12,7 @@
 #include "adaptive/sampled_points.h"
 #include "adaptive/stage_observer.h"
 #include "adaptive/tile_pyramid.h"
+#include "adaptive/workspace.h"
 #include "region_gathering.h"
 #include "stage_timer.h"
 
@@ -59,18 +60,29 @@ struct Labelling {
   NoiseLaw noise;
   FittedRegions fitted;
   LabelledPoints image;
-  std::shared_ptr<const BlockNoise> block_noise; ///< null where samples were labelled
 };
 
+/// Where the stages write down what they do, and who looks on.
+struct Watch {
+  SegmentationReport& report;
+  StageTimer timer;
+  StageObserver* observer; ///< null: nobody
+};
+
+/// \param labels memory for those of the image
 Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_parameters,
-                      SegmentationReport& report, StageTimer& timer,
-                      StageObserver* observer)
+                      Watch& watch, Workspace& workspace,
+                      std::vector<std::uint16_t> labels)
 {
+  SegmentationReport& report = watch.report;
+  StageTimer& timer = watch.timer;
+  StageObserver* observer = watch.observer;
   AdaptiveParameters parameters = all_parameters.adaptive;
   const unsigned int threads = all_parameters.number_of_threads;
 
   // A. Planar surface detection, with tiles as large as the surfaces allow
-  std::vector<TileLevel> pyramid = buildTilePyramid(points, parameters, threads);
+  std::vector<TileLevel>& pyramid = workspace.pyramid;
+  buildTilePyramid(points, parameters, threads, pyramid);
   const NoiseLaw noise = parameters.estimate_noise
                              ? estimateNoise(pyramid, parameters, threads)
                              : statedNoise(all_parameters.noise, pyramid, parameters);
@@ -103,18 +115,19 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   // C and D. The random field and its MAP labels, of the cells until their planes are good
   // and then of the points; and the planes fitted to them
   for (int round = 1; round < parameters.rounds; ++round) {
-    regions = labelCells(regions, pyramid[0], noise, parameters, threads);
+    regions = labelCells(regions, pyramid, noise, parameters, threads);
     if (observer != nullptr)
       observer->seeRegions(Stage::CELLS, regions, pyramid[0]);
   }
   timer.finish("cells");
-  const CandidateField field =
-      buildField(points, regions, pyramid, noise, parameters, threads);
+  const CandidateField& field = workspace.field.field;
+  buildField(points, regions, pyramid, noise, parameters, threads, workspace.field);
   if (observer != nullptr)
     observer->seeField(field, points, parameters);
   timer.finish("field");
-  LabelledPoints image(propagateBeliefs(field, points, parameters.passes, threads),
-                       points.width, threads);
+  propagateBeliefs(field, points, parameters.passes, threads, workspace.beliefs,
+                   labels);
+  LabelledPoints image(std::move(labels), points.width, threads);
   report.iterations += parameters.passes;
   timer.finish("propagation");
   FittedRegions fitted =
@@ -123,27 +136,25 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
     observer->seeImage(Stage::REFINED, fitted, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image, threads);
   timer.finish("refinement");
-  return {noise, std::move(fitted), std::move(image),
-          std::make_shared<const BlockNoise>(
-              BlockNoise{noise, std::move(pyramid[BLOCK_LEVEL].sums)})};
+  return {noise, std::move(fitted), std::move(image)};
 }
 
 /// The same of every so many-th point, and the labels of the others from theirs.
-Labelling labelSampled(const OrganizedPoints& points, const Parameters& parameters,
-                       SegmentationReport& report, StageTimer& timer,
-                       StageObserver* observer)
+Labelling labelSampled(const OrganizedPoints& points, int every,
+                       const Parameters& parameters, Watch& watch, Workspace& workspace,
+                       std::vector<std::uint16_t> labels)
 {
-  const int every = parameters.adaptive.sampling;
-  const OrganizedPoints samples =
-      samplePoints(points, every, parameters.number_of_threads);
-  timer.finish("sampling");
-  Labelling found = labelPlanes(samples, parameters, report, timer, observer);
-  found.block_noise.reset(); // of blocks of samples
-  found.image = LabelledPoints(
-      spreadLabels(points, samples, found.image.labels, every, found.fitted.planes,
-                   found.noise, parameters.adaptive, parameters.number_of_threads),
-      points.width, parameters.number_of_threads);
-  timer.finish("sampling");
+  const unsigned int threads = parameters.number_of_threads;
+  const OrganizedPoints& samples = workspace.samples;
+  samplePoints(points, every, threads, workspace.samples);
+  watch.timer.finish("sampling");
+  Labelling found =
+      labelPlanes(samples, parameters, watch, workspace, std::move(workspace.labels));
+  spreadLabels(points, samples, found.image.labels, every, found.fitted.planes,
+               found.noise, parameters.adaptive, threads, labels);
+  workspace.labels = std::move(found.image.labels);
+  found.image = LabelledPoints(std::move(labels), points.width, threads);
+  watch.timer.finish("sampling");
   return found;
 }
 
@@ -152,32 +163,39 @@ Labelling labelSampled(const OrganizedPoints& points, const Parameters& paramete
 PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
                                     const Parameters& parameters)
 {
-  return adaptive::segmentObserved(points, parameters, nullptr);
+  Workspace workspace;
+  PlaneSegmentation result;
+  segmentObserved(points, parameters, nullptr, workspace, result);
+  return result;
 }
 
-PlaneSegmentation adaptive::segmentObserved(const OrganizedPoints& points,
-                                            const Parameters& parameters,
-                                            StageObserver* observer)
+void adaptive::segmentObserved(const OrganizedPoints& points,
+                               const Parameters& parameters, StageObserver* observer,
+                               Workspace& workspace, PlaneSegmentation& result)
 {
-  PlaneSegmentation result;
+  std::vector<std::uint16_t> labels = std::move(result.labels);
+  result = {};
   SegmentationReport& report = result.report;
-  StageTimer timer(report.stage_ms);
-  Labelling found = parameters.adaptive.sampling > 1
-                        ? labelSampled(points, parameters, report, timer, observer)
-                        : labelPlanes(points, parameters, report, timer, observer);
+  Watch watch = {report, StageTimer(report.stage_ms), observer};
+  const int every = samplingStep(points, parameters.adaptive);
+  Labelling found =
+      every > 1
+          ? labelSampled(points, every, parameters, watch, workspace, std::move(labels))
+          : labelPlanes(points, parameters, watch, workspace, std::move(labels));
+  if (every == 1) // it is of blocks of samples otherwise
+    result.block_noise =
+        std::make_shared<const BlockNoise>(found.noise, workspace.pyramid[BLOCK_LEVEL]);
   const std::vector<Plane> planes(found.fitted.planes.begin(),
                                   found.fitted.planes.end());
   const LabelRuns runs = planeRuns(found.image.runs);
   result.regions = gatherRegions(
       points, planes, runs, {found.fitted.sums.begin(), found.fitted.sums.end()},
       parameters.min_inliers, parameters.min_area, parameters.number_of_threads);
-  result.block_noise = std::move(found.block_noise);
   result.labels = std::move(found.image.labels);
   paintRegions(runs, result.regions, planes.size(), result.labels,
                parameters.number_of_threads);
-  timer.finish("regions");
+  watch.timer.finish("regions");
   report.count(points, result.regions);
-  return result;
 }
 
 } // namespace pcl_mrf_planes

@@ -176,7 +176,9 @@ std::int16_t BlockCosts::margin() const
 /// A label that is better than all others everywhere by half the price of a change: in a
 /// block of 8x8 points no other labelling saves more at the borders of the block, where
 /// neighbours may carry any labels, than that. For "no plane" in place of a plane it is
-/// enough that no hole pays.
+/// enough that no hole pays: not by the squares of the distances, as in fitAsAWhole(), or not
+/// by what all the points far off would save, as one of them pays for two changes more even
+/// on the side of a hole that is there already.
 bool BlockCosts::isSettled(std::size_t label, std::size_t count) const
 {
   const BlockRow::Numbers ahead = margin() + BlockRow::Numbers{};
@@ -189,7 +191,18 @@ bool BlockCosts::isSettled(std::size_t label, std::size_t count) const
     if (any(better))
       return false;
   }
-  return label == 0 || squaresOf(label) <= mostSquares();
+  return label == 0 || squaresOf(label) <= mostSquares() ||
+         excessOf(label) <= 2 * static_cast<float>(parameters_.label_change);
+}
+
+/// What the points of the block save at most that leave a plane for "no plane", sigmas.
+float BlockCosts::excessOf(std::size_t label) const
+{
+  float sum = 0;
+  for (const auto& row : costs_)
+    for (std::size_t k = 0; k < SIDE; ++k)
+      sum += static_cast<float>(std::max(row[label][k] - row[0][k], 0));
+  return sum / units_.per_sigma;
 }
 
 /// Sum of the squared costs of a label, sigmas.

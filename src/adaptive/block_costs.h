@@ -58,6 +58,7 @@ private:
   std::size_t bestSomewhere(std::size_t count) const;
   bool isSettled(std::size_t label, std::size_t count) const;
   float squaresOf(std::size_t label) const;
+  float excessOf(std::size_t label) const;
   double mostSquares() const;
   std::int16_t margin() const;
 

@@ -84,8 +84,15 @@ private:
 CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cells,
                                int width, int height, int reach, unsigned int threads)
 {
-  constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
   CandidateBlocks out;
+  findCandidates(regions, cells, width, height, reach, threads, out);
+  return out;
+}
+
+void findCandidates(const TileRegions& regions, const TileLevel& cells, int width,
+                    int height, int reach, unsigned int threads, CandidateBlocks& out)
+{
+  constexpr std::size_t SLOTS = CandidateBlocks::SLOTS;
   out.columns = (width + CandidateBlocks::SIDE - 1) / CandidateBlocks::SIDE;
   out.rows = (height + CandidateBlocks::SIDE - 1) / CandidateBlocks::SIDE;
   out.count.assign(out.at(0, out.rows), 1);
@@ -113,7 +120,6 @@ CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cell
       for (int c = 0; c < out.columns; ++c)
         addAround(around, c, r);
   });
-  return out;
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -31,12 +31,13 @@ struct FieldSources {
   const NoiseLaw& noise;
   const AdaptiveParameters& parameters;
   std::vector<LabelScale> scales;
-  std::vector<float> ranges;
   const float* depth; ///< of each point
 
+  /// \param ranges memory for those of the points
   FieldSources(const OrganizedPoints& of_points, const TileRegions& regions,
                const std::vector<TileLevel>& of_pyramid, const NoiseLaw& of_noise,
-               const AdaptiveParameters& of_parameters, unsigned int threads)
+               const AdaptiveParameters& of_parameters, unsigned int threads,
+               std::vector<float>& ranges)
   : points(of_points)
   , pyramid(of_pyramid)
   , noise(of_noise)
@@ -47,11 +48,11 @@ struct FieldSources {
     for (const FittedPlane& plane : regions.planes)
       scales.push_back(labelScale(plane, noise, parameters));
     if (points.depth_measure == DepthMeasure::RANGE)
-      measureRanges(threads);
+      measureRanges(threads, ranges);
   }
 
 private:
-  void measureRanges(unsigned int threads)
+  void measureRanges(unsigned int threads, std::vector<float>& ranges)
   {
     ranges.resize(points.size());
     const auto width = static_cast<std::size_t>(points.width);
@@ -62,14 +63,6 @@ private:
     });
     depth = ranges.data();
   }
-};
-
-/// The active blocks of a part of a field.
-struct FieldPart {
-  std::vector<std::size_t> active;
-  std::vector<std::size_t> first; ///< in data of the part
-  std::vector<BlockRow> data;
-  std::vector<BlockWeights> weight;
 };
 
 /// Fills a part of a field block by block.
@@ -86,8 +79,12 @@ public:
   {}
 
   /// For so many blocks; pages that are not used cost nothing.
-  void reserve(std::size_t blocks)
+  void start(std::size_t blocks)
   {
+    part_.active.clear();
+    part_.first.clear();
+    part_.data.clear();
+    part_.weight.clear();
     part_.weight.reserve(blocks);
     part_.data.reserve(blocks * static_cast<std::size_t>(SIDE));
   }
@@ -150,12 +147,16 @@ void joinParts(std::vector<FieldPart>& parts, CandidateField& field)
   if (parts.size() == 1) {
     for (std::size_t a = 0; a < parts[0].active.size(); ++a)
       field.number[parts[0].active[a]] = a;
-    field.active = std::move(parts[0].active);
-    field.first = std::move(parts[0].first);
-    field.data = std::move(parts[0].data);
-    field.weight = std::move(parts[0].weight);
+    std::swap(field.active, parts[0].active);
+    std::swap(field.first, parts[0].first);
+    std::swap(field.data, parts[0].data);
+    std::swap(field.weight, parts[0].weight);
     return;
   }
+  field.active.clear();
+  field.first.clear();
+  field.data.clear();
+  field.weight.clear();
   for (const FieldPart& part : parts) {
     for (std::size_t a = 0; a < part.active.size(); ++a) {
       field.number[part.active[a]] = field.active.size() + a;
@@ -178,23 +179,34 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
                           const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters, unsigned int threads)
 {
-  CandidateField field;
+  FieldMemory memory;
+  buildField(points, regions, pyramid, noise, parameters, threads, memory);
+  return std::move(memory.field);
+}
+
+void buildField(const OrganizedPoints& points, const TileRegions& regions,
+                const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
+                const AdaptiveParameters& parameters, unsigned int threads,
+                FieldMemory& memory)
+{
+  CandidateField& field = memory.field;
   field.width = points.width;
   field.height = points.height;
-  field.blocks = findCandidates(regions, pyramid[0], field.width, field.height,
-                                parameters.support_reach, threads);
+  findCandidates(regions, pyramid[0], field.width, field.height,
+                 parameters.support_reach, threads, field.blocks);
   field.number.assign(field.blocks.count.size(), CandidateField::SETTLED);
-  const FieldSources sources(points, regions, pyramid, noise, parameters, threads);
+  const FieldSources sources(points, regions, pyramid, noise, parameters, threads,
+                             memory.ranges);
   const Bands bands(field.blocks.rows, threadCount(threads) > 1 ? 16 : 1);
-  std::vector<FieldPart> parts(static_cast<std::size_t>(bands.count));
+  std::vector<FieldPart>& parts = memory.parts;
+  parts.resize(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {
     FieldBuilder builder(sources, field, parts[static_cast<std::size_t>(band)]);
-    builder.reserve(field.blocks.at(0, bands.begin(band + 1) - bands.begin(band)));
+    builder.start(field.blocks.at(0, bands.begin(band + 1) - bands.begin(band)));
     for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
       builder.addRow(row);
   });
   joinParts(parts, field);
-  return field;
 }
 
 } // namespace pcl_mrf_planes::adaptive

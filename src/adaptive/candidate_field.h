@@ -38,6 +38,10 @@ CandidateBlocks findCandidates(const TileRegions& regions, const TileLevel& cell
                                int width, int height, int reach,
                                unsigned int threads = 1);
 
+/// The same in the memory of another one.
+void findCandidates(const TileRegions& regions, const TileLevel& cells, int width,
+                    int height, int reach, unsigned int threads, CandidateBlocks& out);
+
 /// A row of a block: eight numbers, added and compared by single instructions wherever the
 /// compiler knows some (an extension of g++ and clang++).
 struct BlockRow {
@@ -83,6 +87,31 @@ struct CandidateField {
   }
 };
 
+/// The active blocks of a part of a field.
+struct FieldPart {
+  std::vector<std::size_t> active;
+  std::vector<std::size_t> first; ///< in data of the part
+  std::vector<BlockRow> data;
+  std::vector<BlockWeights> weight;
+};
+
+/// A field and the memory that it is made in.
+struct FieldMemory {
+  CandidateField field;
+  std::vector<FieldPart> parts;
+  std::vector<float> ranges; ///< of the points, where they count
+};
+
+/// What a row of a block has received for one label.
+struct Messages {
+  BlockRow::Numbers from[4] = {}; ///< by the side that the sender is at
+};
+
+/// Memory of belief propagation.
+struct BeliefMemory {
+  std::vector<Messages> received;
+};
+
 /// Whole units of the field's costs in one sigma.
 double unitsPerSigma(const AdaptiveParameters& parameters);
 
@@ -90,6 +119,12 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
                           const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters,
                           unsigned int threads = 1);
+
+/// The same in the memory of another one.
+void buildField(const OrganizedPoints& points, const TileRegions& regions,
+                const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
+                const AdaptiveParameters& parameters, unsigned int threads,
+                FieldMemory& memory);
 
 /// Min-sum loopy belief propagation; label per site, 0 = none.
 ///
@@ -101,5 +136,10 @@ CandidateField buildField(const OrganizedPoints& points, const TileRegions& regi
 std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
                                             const OrganizedPoints& points, int passes,
                                             unsigned int threads = 1);
+
+/// The same in memory that is there already.
+void propagateBeliefs(const CandidateField& field, const OrganizedPoints& points,
+                      int passes, unsigned int threads, BeliefMemory& memory,
+                      std::vector<std::uint16_t>& labels);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -29,11 +29,6 @@ using Numbers = BlockRow::Numbers;
 using Beliefs = std::array<Numbers, SLOTS>; // not initialized: most are not in use
 using SlotMap = std::array<std::uint8_t, SLOTS>;
 
-/// What a row of a block has received for one label.
-struct Messages {
-  Numbers from[SIDES] = {}; ///< by the side that the sender is at
-};
-
 /// The eight numbers as two words, the first number lowest: what moves from word to word is
 /// one shift away, without an instruction that only newer machines have.
 using Words __attribute__((vector_size(16))) = std::uint64_t;
@@ -72,14 +67,15 @@ struct Place {
 /// Passes over the image, with the messages that every point has received.
 class Passes {
 public:
-  Passes(const CandidateField& field, unsigned int threads)
+  Passes(const CandidateField& field, unsigned int threads, BeliefMemory& memory)
   : f_(field)
   , threads_(threads)
   , blocks_(field.blocks)
-  , received_(field.data.size())
+  , received_(memory.received)
   , places_(field.active.size())
   , strips_(field, threadCount(threads))
   {
+    received_.assign(field.data.size(), Messages());
     parallelRows(blocks_.rows, threads, [&](int row) {
       for (std::size_t a = strips_.first(row, 0); a < strips_.first(row + 1, 0); ++a)
         settleIn(a, row);
@@ -268,7 +264,7 @@ private:
   const CandidateField& f_;
   unsigned int threads_;
   const CandidateBlocks& blocks_;
-  std::vector<Messages> received_;
+  std::vector<Messages>& received_;
   std::vector<Place> places_; ///< of the active blocks
   ActiveStrips strips_;
 };
@@ -291,9 +287,10 @@ Numbers leastLabels(const Beliefs& total, std::size_t count,
 /// Writes labels block by block, neighbours of one settled label together.
 class LabelWriter {
 public:
+  /// \param labels of all points, to be written
   LabelWriter(const CandidateField& field, const OrganizedPoints& points,
-              const Passes& propagation)
-  : labels(points.size())
+              const Passes& propagation, std::vector<std::uint16_t>& labels)
+  : labels_(labels)
   , f_(field)
   , points_(points)
   , propagation_(propagation)
@@ -314,8 +311,6 @@ public:
       column = end;
     }
   }
-
-  std::vector<std::uint16_t> labels;
 
 private:
   bool isActive(std::size_t block) const { return f_.number[block] != SETTLED; }
@@ -339,7 +334,7 @@ private:
     const std::size_t last = std::min(static_cast<std::size_t>(end) * SIDE, width_);
     for (std::size_t y = top(row); y < bottom(row); ++y) {
       const std::uint8_t* valid = &points_.valid[y * width_];
-      std::uint16_t* out = &labels[y * width_];
+      std::uint16_t* out = &labels_[y * width_];
       for (std::size_t x = first; x < last; ++x)
         out[x] = static_cast<std::uint16_t>(label * valid[x]);
     }
@@ -359,7 +354,7 @@ private:
       std::memcpy(label, &best, sizeof(label));
       const std::size_t i = y * width_ + first;
       for (std::size_t k = 0; k < columns; ++k)
-        labels[i + k] = static_cast<std::uint16_t>(label[k] * points_.valid[i + k]);
+        labels_[i + k] = static_cast<std::uint16_t>(label[k] * points_.valid[i + k]);
     }
   }
 
@@ -369,6 +364,7 @@ private:
     return std::min(top(row) + SIDE, static_cast<std::size_t>(f_.height));
   }
 
+  std::vector<std::uint16_t>& labels_;
   const CandidateField& f_;
   const OrganizedPoints& points_;
   const Passes& propagation_;
@@ -381,13 +377,23 @@ std::vector<std::uint16_t> propagateBeliefs(const CandidateField& field,
                                             const OrganizedPoints& points, int passes,
                                             unsigned int threads)
 {
-  Passes propagation(field, threads);
+  BeliefMemory memory;
+  std::vector<std::uint16_t> labels;
+  propagateBeliefs(field, points, passes, threads, memory, labels);
+  return labels;
+}
+
+void propagateBeliefs(const CandidateField& field, const OrganizedPoints& points,
+                      int passes, unsigned int threads, BeliefMemory& memory,
+                      std::vector<std::uint16_t>& labels)
+{
+  Passes propagation(field, threads, memory);
   for (int t = 0; t < passes; ++t)
     for (const bool downwards : {true, false})
       propagation.run(downwards);
-  LabelWriter writer(field, points, propagation);
+  labels.resize(points.size());
+  LabelWriter writer(field, points, propagation, labels);
   parallelRows(field.blocks.rows, threads, [&](int row) { writer.writeRow(row); });
-  return std::move(writer.labels);
 }
 
 } // namespace pcl_mrf_planes::adaptive

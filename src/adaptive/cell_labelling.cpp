@@ -35,13 +35,20 @@ public:
   {
     const Bands strips(cells_.columns, threadCount(threads));
     staggeredSteps(strips.count, cells_.rows, threads, [&](int strip, int row) {
-      for (int c = strips.begin(strip); c < strips.begin(strip + 1); ++c)
-        visit(c, row);
+      const int end = strips.begin(strip + 1);
+      for (int c = strips.begin(strip); c < end; c += GROUP)
+        if (!isCalm(c, end, row))
+          for (int k = c; k < std::min(c + GROUP, end); ++k)
+            visit(k, row);
     });
     staggeredSteps(strips.count, cells_.rows, threads, [&](int step_strip, int step) {
       const int strip = strips.count - 1 - step_strip;
-      for (int c = strips.begin(strip + 1) - 1; c >= strips.begin(strip); --c)
-        visit(c, cells_.rows - 1 - step);
+      const int row = cells_.rows - 1 - step;
+      const int begin = strips.begin(strip);
+      for (int end = strips.begin(strip + 1); end > begin; end -= GROUP)
+        if (!isCalm(end - GROUP, end, row) || end - GROUP < begin)
+          for (int k = end - 1; k >= std::max(end - GROUP, begin); --k)
+            visit(k, row);
     });
   }
 
@@ -49,7 +56,25 @@ public:
 
 private:
   static constexpr std::size_t SIDES = 4;
+  static constexpr int GROUP = 8; ///< cells that are looked at at once
   using Neighbours = std::array<int, SIDES>;
+
+  /// Whether a group of cells from c on and all their neighbours carry one label: none of them
+  /// would get another. \param[in] end of the cells that may be visited
+  bool isCalm(int column, int end, int row) const
+  {
+    if (column < 1 || column + GROUP > end || column + GROUP >= cells_.columns ||
+        row < 1 || row + 1 >= cells_.rows)
+      return false;
+    const int* own = &labels_[cells_.at(column, row)];
+    const int* above = own - cells_.columns;
+    const int* below = own + cells_.columns;
+    const int label = own[0];
+    int differ = (own[-1] ^ label) | (own[GROUP] ^ label);
+    for (int k = 0; k < GROUP; ++k)
+      differ |= (own[k] ^ label) | (above[k] ^ label) | (below[k] ^ label);
+    return differ == 0;
+  }
 
   /// Gives a cell the label of least energy among its own and its neighbours'.
   void visit(int column, int row)
@@ -111,30 +136,82 @@ private:
   std::vector<int> labels_;
 };
 
-/// Sums of the cells of each label.
-std::vector<TileSums> sumLabels(const TileLevel& cells, const std::vector<int>& labels,
-                                std::size_t count, unsigned int threads)
+/// Adds up the cells of each label; blocks of one label as a whole.
+class CellSums {
+public:
+  CellSums(const std::vector<TileLevel>& pyramid, const std::vector<int>& labels,
+           std::size_t count)
+  : sums(count)
+  , cells_(pyramid[0])
+  , blocks_(pyramid[BLOCK_LEVEL])
+  , labels_(labels)
+  {}
+
+  void addBlocks(int row)
+  {
+    for (int c = 0; c < blocks_.columns; ++c)
+      if (const int label = labels_[cells_.at(2 * c, 2 * row)]; !isOf(label, c, row))
+        addCells(c, row);
+      else if (label >= 0)
+        sums[static_cast<std::size_t>(label)] += blocks_.sums[blocks_.at(c, row)];
+  }
+
+  CellSums& operator+=(const CellSums& other)
+  {
+    addTo(sums, other.sums);
+    return *this;
+  }
+
+  std::vector<TileSums> sums;
+
+private:
+  /// Whether a block has four cells of this label.
+  bool isOf(int label, int column, int row) const
+  {
+    if (2 * column + 1 >= cells_.columns || 2 * row + 1 >= cells_.rows)
+      return false;
+    const int* above = &labels_[cells_.at(2 * column, 2 * row)];
+    const int* below = above + cells_.columns;
+    return ((above[1] ^ label) | (below[0] ^ label) | (below[1] ^ label)) == 0;
+  }
+
+  void addCells(int column, int row)
+  {
+    for (int r = 2 * row; r < std::min(2 * row + 2, cells_.rows); ++r)
+      for (int c = 2 * column; c < std::min(2 * column + 2, cells_.columns); ++c)
+        if (const int label = labels_[cells_.at(c, r)]; label >= 0)
+          sums[static_cast<std::size_t>(label)] += cells_.sums[cells_.at(c, r)];
+  }
+
+  const TileLevel& cells_;
+  const TileLevel& blocks_;
+  const std::vector<int>& labels_;
+};
+
+std::vector<TileSums> sumLabels(const std::vector<TileLevel>& pyramid,
+                                const std::vector<int>& labels, std::size_t count,
+                                unsigned int threads)
 {
-  return sumOfBands(cells.rows, threads, std::vector<TileSums>(count),
-                    [&](int first, int last, std::vector<TileSums>& sums) {
-                      for (std::size_t i = cells.at(0, first); i < cells.at(0, last);
-                           ++i)
-                        if (labels[i] >= 0)
-                          sums[static_cast<std::size_t>(labels[i])] += cells.sums[i];
-                    });
+  return sumOfBands(pyramid[BLOCK_LEVEL].rows, threads,
+                    CellSums(pyramid, labels, count),
+                    [](int first, int last, CellSums& sums) {
+                      for (int row = first; row < last; ++row)
+                        sums.addBlocks(row);
+                    })
+      .sums;
 }
 
 } // namespace
 
-TileRegions labelCells(const TileRegions& regions, const TileLevel& cells,
-                       const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                       unsigned int threads)
+TileRegions labelCells(const TileRegions& regions,
+                       const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
+                       const AdaptiveParameters& parameters, unsigned int threads)
 {
-  CellField field(regions, cells, noise, parameters);
+  CellField field(regions, pyramid[0], noise, parameters);
   field.sweep(threads);
 
   const std::vector<TileSums> sums =
-      sumLabels(cells, field.labels(), regions.planes.size(), threads);
+      sumLabels(pyramid, field.labels(), regions.planes.size(), threads);
   TileRegions out;
   std::vector<int> id(sums.size(), NONE);
   for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -145,9 +222,13 @@ TileRegions labelCells(const TileRegions& regions, const TileLevel& cells,
     out.planes.push_back(plane);
     out.sums.push_back(sums[k]);
   }
-  out.cell_region.reserve(cells.sums.size());
-  for (const int label : field.labels())
-    out.cell_region.push_back(label < 0 ? NONE : id[static_cast<std::size_t>(label)]);
+  id.push_back(NONE); // of those without label
+  out.cell_region.resize(field.labels().size());
+  std::transform(
+      field.labels().begin(), field.labels().end(), out.cell_region.begin(),
+      [&](int label) {
+        return id[label < 0 ? id.size() - 1 : static_cast<std::size_t>(label)];
+      });
   return out;
 }
 

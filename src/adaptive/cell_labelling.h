@@ -11,8 +11,8 @@ namespace pcl_mrf_planes::adaptive {
  * Iterated conditional modes (Besag, "On the Statistical Analysis of Dirty Pictures",
  * 1986), down the image and up again: a plane may take cell after cell as far as it fits
  * them. O(cells); cells between others of their own label cost next to nothing. */
-TileRegions labelCells(const TileRegions& regions, const TileLevel& cells,
-                       const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                       unsigned int threads = 1);
+TileRegions labelCells(const TileRegions& regions,
+                       const std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
+                       const AdaptiveParameters& parameters, unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

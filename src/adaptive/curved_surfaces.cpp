@@ -184,7 +184,7 @@ public:
   : parameters_(parameters)
   , regions_(regions)
   , largest_(parameters.fan_share * static_cast<double>(points.countValid()))
-  , bends_(measureBends(points, image.labels, regions.planes, threads))
+  , bends_(measureBends(points, image.runs, regions.planes, threads))
   {
     BorderFinder finder = sumOfBands(
         points.height, threads,

@@ -87,8 +87,7 @@ std::shared_ptr<const BlockNoise> findBlockNoise(const OrganizedPoints& points,
                              ? estimateNoise(pyramid, adaptive)
                              : statedNoise(parameters.noise, pyramid, adaptive);
   assignLocalNoise(pyramid, noise, adaptive);
-  return std::make_shared<const BlockNoise>(
-      BlockNoise{noise, std::move(pyramid[BLOCK_LEVEL].sums)});
+  return std::make_shared<const BlockNoise>(noise, pyramid[BLOCK_LEVEL]);
 }
 
 /// The cells of an image, without sums.
@@ -186,12 +185,11 @@ private:
   void prepare(int column, int row)
   {
     const std::size_t block = blocks_.at(column, row);
-    const TileSums& sums = noise_->blocks[block];
-    const double range = sums.n > 0 ? sums.centroid().norm() : 1.0;
-    const double variance = sums.n > 0 ? sums.noise / sums.n : 1.0;
+    const BlockNoise::Block& of_block = noise_->blocks[block];
+    const double variance = of_block.variance();
     const auto at = static_cast<std::size_t>(column);
     std::fill_n(&per_step_[at * SIDE], SIDE,
-                perStep(noise_->noise, parameters_, range));
+                perStep(noise_->noise, parameters_, of_block.range()));
     for (std::size_t s = 0; s < blocks_.count[block]; ++s)
       candidates_[at * SLOTS + s] = candidate(blocks_.labelsOf(block)[s], variance);
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -36,6 +38,28 @@ double unbiasedRms(const FittedPlane& p)
   return std::sqrt(unbiasedVariance(p));
 }
 
+/// That percentile of the tiles at one depth, as long as it can be noise: where more of them
+/// lie on no surface (far away in a laser scan nearly all do), what they show is no more than
+/// some times what the quietest of them show. Tiles without any spread are not asked: depth
+/// that is rounded to steps hides the noise within one. A tile that a step of depth crosses
+/// shows an eighth to a half of it, so these are quiet enough for each other. Orders the numbers
+/// as it needs.
+double typicalRms(std::vector<double>& rms, double p, double z)
+{
+  constexpr std::size_t FEWEST = 60; // tiles for a low percentile
+  constexpr double QUIETEST = 0.2;   // of the percentile
+  constexpr double MOST = 2.2;       // seen on surfaces: 1.2 to 2
+  constexpr double ROUNDING = 1e-6;  // of the coordinates, relative
+  const double typical = percentile(rms, p);
+  rms.erase(std::remove_if(rms.begin(), rms.end(),
+                           [&](double r) { return r < ROUNDING * z; }),
+            rms.end());
+  if (rms.size() < FEWEST)
+    return typical;
+  const double quiet = percentile(rms, QUIETEST * p);
+  return std::min(typical, MOST * quiet);
+}
+
 /// rms = a + c z^2 over depth bins, relative least squares, a and c not negative
 void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
 {
@@ -55,7 +79,7 @@ void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
     for (std::size_t i = i0; i < i1; ++i)
       rms.push_back(samples[i].rms);
     const double z = samples[(i0 + i1) / 2].z;
-    const double r = std::max(percentile(rms, p), 1e-7);
+    const double r = std::max(typicalRms(rms, p, z), 1e-7);
     const double u = 1 / r, v = z * z / r;
     s00 += u * u;
     s01 += u * v;
@@ -79,9 +103,31 @@ void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
 
 } // namespace
 
+namespace {
+
+/// The binary logarithm to within 0.01, of a normal number: growth is interpolated by it.
+double roughLog2(double number)
+{
+  constexpr int MANTISSA = 52; // bits
+  constexpr std::int64_t BIAS = 1023;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &number, sizeof(bits));
+  const auto exponent = static_cast<std::int64_t>(bits >> MANTISSA) - BIAS;
+  bits = (bits & ((std::uint64_t{1} << MANTISSA) - 1)) |
+         (static_cast<std::uint64_t>(BIAS) << MANTISSA);
+  double mantissa = 0; // 1 to 2
+  std::memcpy(&mantissa, &bits, sizeof(mantissa));
+  const double part = mantissa - 1;
+  return static_cast<double>(exponent) + part * (1.3465 - 0.3465 * part);
+}
+
+} // namespace
+
 double NoiseLaw::growthOf(double n) const
 {
-  const double l = std::max(0.0, 0.5 * std::log2(std::max(n, 1.0)) - std::log2(CELL));
+  constexpr double LOG2_CELL = 2;
+  static_assert(CELL == 4, "growth starts with the smallest tiles");
+  const double l = std::max(0.0, 0.5 * roughLog2(std::max(n, 1.0)) - LOG2_CELL);
   const auto i = static_cast<std::size_t>(l);
   const std::size_t last = growth.size() - 1;
   const double t = l - static_cast<double>(i);

@@ -5,21 +5,40 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace pcl_mrf_planes::adaptive {
 
 namespace {
+
+/// Numbers of four neighbours of a row.
+using Floats __attribute__((vector_size(16))) = float;
+using Words __attribute__((vector_size(16))) = std::int32_t;
+constexpr int LANES = 4;
 
 /// A plane in the precision of the points, and what a metre from it costs.
 struct NearPlane {
   float a, b, c, d;
   float per_metre; ///< sigmas
 
-  float cost(float x, float y, float z) const
+  Floats cost(const Floats& x, const Floats& y, const Floats& z) const
   {
-    return std::abs(a * x + b * y + c * z + d) * per_metre;
+    const Floats distance = a * x + b * y + c * z + d;
+    return (distance < 0.0f ? -distance : distance) * per_metre;
   }
 };
+
+/// Calls work(every); the compiler knows the usual ones.
+template <typename Work>
+void withStep(int every, const Work& work)
+{
+  if (every == 2)
+    work(std::integral_constant<int, 2>());
+  else if (every == 3)
+    work(std::integral_constant<int, 3>());
+  else
+    work(every);
+}
 
 NearPlane nearPlane(const FittedPlane& plane, const NoiseLaw& noise,
                     const AdaptiveParameters& parameters)
@@ -36,8 +55,8 @@ public:
   LabelSpreading(const OrganizedPoints& points, const OrganizedPoints& samples,
                  const std::vector<std::uint16_t>& labels, int every,
                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
-                 const AdaptiveParameters& parameters)
-  : out(points.size())
+                 const AdaptiveParameters& parameters, std::vector<std::uint16_t>& out)
+  : out_(out)
   , points_(points)
   , samples_(samples)
   , labels_(labels)
@@ -64,8 +83,6 @@ public:
              row * every_, bottom);
     }
   }
-
-  std::vector<std::uint16_t> out;
 
 private:
   /// The different labels at the corners of a square.
@@ -99,21 +116,22 @@ private:
   void widen(const std::uint16_t* samples, std::vector<std::uint16_t>& wide) const
   {
     wide.resize(static_cast<std::size_t>(samples_.width * every_));
-    std::uint16_t* to = wide.data();
-    if (every_ == 2) { // the usual case
-      for (int c = 0; c < samples_.width; ++c)
-        to[2 * c] = to[2 * c + 1] = samples[c];
-      return;
-    }
-    for (int c = 0; c < samples_.width; ++c, to += every_)
-      std::fill_n(to, every_, samples[c]);
+    withStep(every_, [&](auto step) { widenBy(step, samples, wide.data()); });
+  }
+
+  template <typename Step>
+  void widenBy(Step step, const std::uint16_t* samples, std::uint16_t* to) const
+  {
+    for (int c = 0; c < samples_.width; ++c, to += step)
+      for (int k = 0; k < step; ++k)
+        to[k] = samples[c];
   }
 
   /// The label of the sample to the left and above for all valid points of a row.
   void copyRow(int v, const std::vector<std::uint16_t>& wide)
   {
     const std::uint16_t* from = wide.data();
-    std::uint16_t* to = &out[at(0, v)];
+    std::uint16_t* to = &out_[at(0, v)];
     const std::uint8_t* valid = &points_.valid[at(0, v)];
     for (int u = 0; u < points_.width; ++u)
       to[u] = static_cast<std::uint16_t>(from[u] * valid[u]);
@@ -149,30 +167,44 @@ private:
   {
     const int right = std::min(points_.width, left + every_);
     for (int v = top; v < bottom; ++v)
-      for (int u = left; u < right; ++u)
-        if (const std::size_t i = at(u, v); points_.valid[i] != 0)
-          out[i] = best(around, i);
+      for (int u = left; u < right; u += LANES)
+        decideRow(around, at(u, v), std::min(LANES, right - u));
   }
 
-  std::uint16_t best(const Around& around, std::size_t i) const
+  /// So many neighbours at once, LANES at most.
+  void decideRow(const Around& around, std::size_t i, int count)
   {
-    std::uint16_t label = around.labels[0];
-    float least = cost(label, i);
-    for (int k = 1; k < around.count; ++k)
-      if (const float other = cost(around.labels[k], i); other < least) {
-        least = other;
-        label = around.labels[k];
-      }
-    return label;
+    const Floats x = load(points_.x, i);
+    const Floats y = load(points_.y, i);
+    const Floats z = load(points_.z, i);
+    const auto cost = [&](std::uint16_t label) {
+      return label == 0 ? none_ + Floats{} : planes_[label - 1U].cost(x, y, z);
+    };
+    Words best = around.labels[0] + Words{};
+    Floats least = cost(around.labels[0]);
+    for (int k = 1; k < around.count; ++k) {
+      const Floats other = cost(around.labels[k]);
+      best = other < least ? around.labels[k] + Words{} : best;
+      least = other < least ? other : least;
+    }
+    for (int k = 0; k < count; ++k) {
+      const std::size_t point = i + static_cast<std::size_t>(k);
+      out_[point] = static_cast<std::uint16_t>(best[k] * points_.valid[point]);
+    }
   }
 
-  float cost(std::uint16_t label, std::size_t i) const
+  /// Four numbers from the i-th on, or as many as there are.
+  static Floats load(const std::vector<float>& from, std::size_t i)
   {
-    return label == 0
-               ? none_
-               : planes_[label - 1U].cost(points_.x[i], points_.y[i], points_.z[i]);
+    Floats four = {};
+    if (i + LANES <= from.size())
+      std::memcpy(&four, &from[i], sizeof(four));
+    else
+      std::memcpy(&four, &from[i], (from.size() - i) * sizeof(float));
+    return four;
   }
 
+  std::vector<std::uint16_t>& out_;
   const OrganizedPoints& points_;
   const OrganizedPoints& samples_;
   const std::vector<std::uint16_t>& labels_;
@@ -183,24 +215,42 @@ private:
 
 } // namespace
 
+int samplingStep(const OrganizedPoints& points, const AdaptiveParameters& parameters)
+{
+  const auto samples = [](int length, int every) {
+    return (static_cast<std::size_t>(length) + static_cast<std::size_t>(every) - 1) /
+           static_cast<std::size_t>(every);
+  };
+  int every = parameters.sampling;
+  while (every > 1 && samples(points.width, every) * samples(points.height, every) <
+                          static_cast<std::size_t>(parameters.least_samples))
+    --every;
+  return every;
+}
+
 OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
                              unsigned int threads)
 {
   OrganizedPoints samples;
-  samples.resize((points.width + every - 1) / every,
-                 (points.height + every - 1) / every);
+  samplePoints(points, every, threads, samples);
+  return samples;
+}
+
+void samplePoints(const OrganizedPoints& points, int every, unsigned int threads,
+                  OrganizedPoints& samples)
+{
+  samples.setSize((points.width + every - 1) / every,
+                  (points.height + every - 1) / every);
   samples.depth_measure = points.depth_measure;
   const auto step = static_cast<std::size_t>(every);
   const auto columns = static_cast<std::size_t>(samples.width);
   const auto take = [&](const auto& from, std::size_t r, auto& to) {
     const auto* row = &from[r * step * static_cast<std::size_t>(points.width)];
     auto* out = &to[r * columns];
-    if (step == 2) // the usual case
+    withStep(every, [&](auto known) {
       for (std::size_t c = 0; c < columns; ++c)
-        out[c] = row[2 * c];
-    else
-      for (std::size_t c = 0; c < columns; ++c)
-        out[c] = row[step * c];
+        out[c] = row[static_cast<std::size_t>(known) * c];
+    });
   };
   parallelRows(samples.height, threads, [&](int row) {
     const auto r = static_cast<std::size_t>(row);
@@ -209,7 +259,6 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
     take(points.z, r, samples.z);
     take(points.valid, r, samples.valid);
   });
-  return samples;
 }
 
 std::vector<std::uint16_t>
@@ -218,14 +267,26 @@ spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
              const AdaptiveParameters& parameters, unsigned int threads)
 {
-  LabelSpreading spreading(points, samples, labels, every, planes, noise, parameters);
+  std::vector<std::uint16_t> out;
+  spreadLabels(points, samples, labels, every, planes, noise, parameters, threads, out);
+  return out;
+}
+
+void spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
+                  const std::vector<std::uint16_t>& labels, int every,
+                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+                  const AdaptiveParameters& parameters, unsigned int threads,
+                  std::vector<std::uint16_t>& out)
+{
+  out.resize(points.size());
+  LabelSpreading spreading(points, samples, labels, every, planes, noise, parameters,
+                           out);
   const Bands bands(samples.height);
   parallelParts(bands.count, threads, [&](int band) {
     std::vector<std::uint16_t> wide;
     for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
       spreading.spreadRow(row, wide);
   });
-  return std::move(spreading.out);
 }
 
 } // namespace pcl_mrf_planes::adaptive

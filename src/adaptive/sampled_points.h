@@ -8,10 +8,18 @@
 
 namespace pcl_mrf_planes::adaptive {
 
+/** \brief The step that AdaptiveParameters::sampling gives for these points, made shorter
+ * until AdaptiveParameters::least_samples are left; 1 or more. */
+int samplingStep(const OrganizedPoints& points, const AdaptiveParameters& parameters);
+
 /** \brief Every so many-th point of every so many-th row, from the first on.
  * O(points / every^2) */
 OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
                              unsigned int threads = 1);
+
+/** \brief The same in the memory of others. */
+void samplePoints(const OrganizedPoints& points, int every, unsigned int threads,
+                  OrganizedPoints& samples);
 
 /** \brief Labels of all points from those of the sampled ones (0 none, k planes[k - 1]).
  *
@@ -23,5 +31,12 @@ spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<std::uint16_t>& labels, int every,
              const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
              const AdaptiveParameters& parameters, unsigned int threads = 1);
+
+/** \brief The same into labels that are there already. */
+void spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
+                  const std::vector<std::uint16_t>& labels, int every,
+                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+                  const AdaptiveParameters& parameters, unsigned int threads,
+                  std::vector<std::uint16_t>& out);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -24,9 +24,12 @@ public:
                         const LabelledPoints& image) = 0;
 };
 
-/** \brief segmentAdaptively() before the eyes of an observer, if it is not null. */
-PlaneSegmentation segmentObserved(const OrganizedPoints& points,
-                                  const Parameters& parameters,
-                                  StageObserver* observer);
+struct Workspace;
+
+/** \brief segmentAdaptively() before the eyes of an observer, if it is not null.
+ * \param[in,out] result is replaced; the memory of the one before is used again */
+void segmentObserved(const OrganizedPoints& points, const Parameters& parameters,
+                     StageObserver* observer, Workspace& workspace,
+                     PlaneSegmentation& result);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/stage_recorder.h"
 #include "adaptive/field_energy.h"
+#include "adaptive/sampled_points.h"
 #include "adaptive/stage_observer.h"
+#include "adaptive/workspace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,8 +139,9 @@ SegmentationStages recordAdaptive(const OrganizedPoints& points,
                                   const Parameters& parameters)
 {
   SegmentationStages stages;
-  StageRecorder recorder(points, parameters.adaptive.sampling, stages);
-  stages.result = segmentObserved(points, parameters, &recorder);
+  StageRecorder recorder(points, samplingStep(points, parameters.adaptive), stages);
+  Workspace workspace;
+  segmentObserved(points, parameters, &recorder, workspace, stages.result);
   return stages;
 }
 

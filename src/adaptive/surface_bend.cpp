@@ -99,36 +99,39 @@ private:
   double squared_ = 0;
 };
 
+/// Of every 4th point every 4th, or of those every 4th, is enough for a large region.
+std::size_t stepOf(const FittedPlane& plane)
+{
+  constexpr double MANY = 4000;
+  constexpr double VERY_MANY = 16000;
+  return plane.n < MANY ? 2 : plane.n < VERY_MANY ? 4 : 8;
+}
+
 } // namespace
 
-std::vector<Bend> measureBends(const OrganizedPoints& points,
-                               const std::vector<std::uint16_t>& labels,
+std::vector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& image,
                                const std::vector<FittedPlane>& planes,
                                unsigned int threads)
 {
-  // Of every 4th point every 4th, or of those every 4th, is enough for a large region.
-  constexpr double MANY = 4000;
-  constexpr double VERY_MANY = 16000;
-  const auto w = static_cast<std::size_t>(points.width);
-  const auto addRow = [&](std::size_t v, std::vector<QuadricSums>& sums) {
-    for (std::size_t u = 0; u < w; u += 2) {
-      const std::size_t i = v * w + u;
-      if (labels[i] == 0)
-        continue;
-      const std::size_t k = labels[i] - 1U;
-      const std::size_t left_out = planes[k].n < MANY        ? 0
-                                   : planes[k].n < VERY_MANY ? 2
-                                                             : 6; // bits of u and v
-      if (((u | v) & left_out) == 0)
-        sums[k].add(points.x[i], points.y[i], points.z[i]);
-    }
+  const auto addRun = [&](const LabelRun& run, std::size_t row, QuadricSums& sums) {
+    const std::size_t step = stepOf(planes[run.label - 1U]);
+    if (row % step != 0)
+      return;
+    const std::size_t begin = row * image.width;
+    for (std::size_t u = (run.begin - begin + step - 1) / step * step;
+         begin + u < run.end; u += step)
+      sums.add(points.x[begin + u], points.y[begin + u], points.z[begin + u]);
   };
   const auto sums =
       sumOfBands((points.height + 1) / 2, threads,
                  std::vector<QuadricSums>(planes.begin(), planes.end()),
                  [&](int first, int last, std::vector<QuadricSums>& of_rows) {
-                   for (int row = first; row < last; ++row)
-                     addRow(2 * static_cast<std::size_t>(row), of_rows);
+                   for (int pair = first; pair < last; ++pair) {
+                     const std::size_t row = 2 * static_cast<std::size_t>(pair);
+                     for (std::size_t k = image.rows[row]; k < image.rows[row + 1]; ++k)
+                       if (const LabelRun& run = image.runs[k]; run.label != 0)
+                         addRun(run, row, of_rows[run.label - 1U]);
+                   }
                  });
   std::vector<Bend> bends;
   bends.reserve(sums.size());

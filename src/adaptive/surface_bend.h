@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "adaptive/tile_sums.h"
+#include "label_runs.h"
+
 #include <pcl_mrf_planes/organized_points.h>
 
 namespace pcl_mrf_planes::adaptive {
@@ -11,10 +13,10 @@ struct Bend {
   double share = 0; ///< share of the squared distances that the quadric explains
 };
 
-/** \brief Bend of every region; label k refers to planes[k - 1]. Every second point of
- * every second row is used, of large regions half of these each way. O(points). */
-std::vector<Bend> measureBends(const OrganizedPoints& points,
-                               const std::vector<std::uint16_t>& labels,
+/** \brief Bend of every region by the runs of its label; label k refers to planes[k - 1].
+ * Every second point of every second row is used, of large regions half or a quarter of
+ * these each way. O(points). */
+std::vector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& image,
                                const std::vector<FittedPlane>& planes,
                                unsigned int threads = 1);
 

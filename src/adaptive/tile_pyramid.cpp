@@ -44,10 +44,11 @@ void poolTiles(const TileLevel& below, TileRows rows, TileLevel& level)
 {
   for (int r = rows.begin; r < rows.end; ++r)
     for (int c = 0; c < level.columns; ++c) {
-      TileSums& s = level.sums[level.at(c, r)];
+      TileSums s;
       for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
         for (int i = 2 * c; i < std::min(2 * c + 2, below.columns); ++i)
           s += below.sums[below.at(i, j)];
+      level.sums[level.at(c, r)] = s;
     }
 }
 
@@ -73,7 +74,16 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
                                         const AdaptiveParameters& parameters,
                                         unsigned int threads)
 {
-  std::vector<TileLevel> pyramid(static_cast<std::size_t>(parameters.levels));
+  std::vector<TileLevel> pyramid;
+  buildTilePyramid(points, parameters, threads, pyramid);
+  return pyramid;
+}
+
+void buildTilePyramid(const OrganizedPoints& points,
+                      const AdaptiveParameters& parameters, unsigned int threads,
+                      std::vector<TileLevel>& pyramid)
+{
+  pyramid.resize(static_cast<std::size_t>(parameters.levels));
   for (std::size_t l = 0; l < pyramid.size(); ++l) {
     TileLevel& level = pyramid[l];
     level.side = CELL << l;
@@ -95,7 +105,6 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
       fitTiles(part, parameters, pyramid[l]);
     }
   });
-  return pyramid;
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -56,4 +56,9 @@ std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
                                         const AdaptiveParameters& parameters,
                                         unsigned int threads = 1);
 
+/** \brief The same in the memory of another one. */
+void buildTilePyramid(const OrganizedPoints& points,
+                      const AdaptiveParameters& parameters, unsigned int threads,
+                      std::vector<TileLevel>& pyramid);
+
 } // namespace pcl_mrf_planes::adaptive

@@ -88,6 +88,7 @@ void SumTiles(const TileStrip& strip, std::size_t tiles, TileSums* sums)
     sum.yy = total(6);
     sum.yz = total(7);
     sum.zz = total(8);
+    sum.noise = 0;
   }
 }
 

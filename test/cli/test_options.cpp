@@ -47,6 +47,7 @@ const Values PAPER = {{"tile-width", 16},
 
 /// Of profile default.
 const Values ADAPTIVE = {{"sampling", 2},
+                         {"least-samples", 5000},
                          {"levels", 3},
                          {"smallest-level", 1},
                          {"tile-tolerance", 2.25},

@@ -67,7 +67,7 @@ TEST_F(ParameterFileTest, TheProfileOfTheCommandLineWinsToo)
 {
   write("p.txt", "profile = default\nmin-evidence = 321\n");
   const Json values = used({"--parameters", path("p.txt"), "--profile", "fast"});
-  EXPECT_EQ(values.at("sampling"), 2);
+  EXPECT_EQ(values.at("sampling"), 3);
   EXPECT_EQ(values.at("min_evidence"), 321);
 }
 

@@ -90,9 +90,11 @@ void setReal(Parameters& p, int which, double value)
 void setInt(Parameters& p, int which, int value)
 {
   AdaptiveParameters& a = p.adaptive;
-  int* const ints[] = {&p.tile_width, &p.tile_height, &p.max_planes,     &p.min_inliers,
-                       &a.sampling,   &a.levels,      &a.smallest_level, &a.local_reach,
-                       &a.min_points, &a.fan_parts,   &a.support_reach,  &a.rounds};
+  int* const ints[] = {&p.tile_width,  &p.tile_height,    &p.max_planes,
+                       &p.min_inliers, &a.sampling,       &a.least_samples,
+                       &a.levels,      &a.smallest_level, &a.local_reach,
+                       &a.min_points,  &a.fan_parts,      &a.support_reach,
+                       &a.rounds};
   *ints[static_cast<std::size_t>(which) % std::size(ints)] = value;
 }
 

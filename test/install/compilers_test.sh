@@ -43,7 +43,7 @@ done
 series=$(pkg-config --modversion pcl_mrf_planes | cut -d . -f 1,2)
 for name in pcl_mrf_planes pcl_mrf_planes_io; do
   library=$libdir/lib$name.so
-  readelf -d "$library" | grep -q "SONAME.*\[lib$name\.so\.$series\]" ||
+  readelf -d "$library" | grep "SONAME.*\[lib$name\.so\.$series\]" >/dev/null ||
     { echo "$library: its SONAME is not lib$name.so.$series" >&2; exit 1; }
   if nm -DC --defined-only "$library" | awk '$2 == "T"' | cut -d ' ' -f 3- |
     grep -vE '^((non-virtual|virtual) thunk to )?(pcl_mrf_planes::|pcl::MRFPlaneSegmentation<)'; then

@@ -113,8 +113,40 @@ struct CloudField {
                             parameters);
     regions = joinCoplanar(regions, points, pyramid[0], noise, parameters);
     for (int round = 1; round < parameters.rounds; ++round)
-      regions = labelCells(regions, pyramid[0], noise, parameters);
+      regions = labelCells(regions, pyramid, noise, parameters);
     field = buildField(points, regions, pyramid, noise, parameters);
+  }
+
+  /// Equation (7) in sigmas for a label of a point: of its distance from the plane, with the
+  /// noise of its cell, no more than three times the cost of "no plane".
+  double dataCost(std::size_t i, std::uint16_t label,
+                  const AdaptiveParameters& parameters) const
+  {
+    if (points.valid[i] == 0)
+      return 0.0;
+    if (label == 0)
+      return parameters.none_cost;
+    const int x = static_cast<int>(i) % points.width;
+    const int y = static_cast<int>(i) / points.width;
+    const TileSums& cell = pyramid[0].sums[pyramid[0].at(x / CELL, y / CELL)];
+    FittedPlane plane = regions.planes[label - 1U];
+    plane.noise = cell.noise / cell.n;
+    const double distance =
+        std::abs(plane.distance(points.x[i], points.y[i], points.z[i]));
+    return std::min(distance / std::sqrt(allowedVariance(plane, noise, parameters)),
+                    3 * parameters.none_cost);
+  }
+
+  /// Calls visit(point, block, label) for all points of settled blocks.
+  template <typename Visit>
+  void forEachSettled(const Visit& visit) const
+  {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t b = blockOf(field, static_cast<int>(i) % points.width,
+                                    static_cast<int>(i) / points.width);
+      if (field.number[b] == CandidateField::SETTLED)
+        visit(i, b, field.blocks.labelsOf(b)[0]);
+    }
   }
 };
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** \file What is seen, without a window. */
 #include "label_contours.h"
+#include "model_test.h"
 #include "panel_image.h"
 #include "pick_point.h"
 #include "point_colours.h"
-#include "sensor_view.h"
-#include "session.h"
 #include "view_text.h"
-#include "viewer_test.h"
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 
@@ -19,15 +17,7 @@ namespace {
 
 using namespace viewer;
 
-class Model : public ViewerTest {
-protected:
-  Session open(const std::vector<std::string>& inputs,
-               Profile profile = Profile::DEFAULT)
-  {
-    return Session(io::listFrames(inputs, {}).frames, Parameters::fromProfile(profile),
-                   profile);
-  }
-};
+class Model : public ModelTest {};
 
 TEST(Actions, KeysAreDifferentAndAllHelp)
 {
@@ -75,35 +65,6 @@ TEST(PickPoint, TakesTheForemostOfThoseShown)
   EXPECT_EQ(pickPoint(cloud, {true, true, true}, same, {0.05, 0.0}, reach), 1);
   EXPECT_EQ(pickPoint(cloud, {true, false, true}, same, {0.05, 0.0}, reach), 0);
   EXPECT_EQ(pickPoint(cloud, {true, true, true}, same, {0.0, 0.5}, reach), -1);
-}
-
-TEST(SensorView, LooksDownOnAScanWhateverTheAxesOfItsFile)
-{
-  constexpr double PI = 3.14159265358979;
-  const Eigen::Quaterniond turns[] = {
-      Eigen::Quaterniond::Identity(),
-      Eigen::Quaterniond(Eigen::AngleAxisd(PI / 2, Eigen::Vector3d::UnitX())),
-      Eigen::Quaterniond(0.2, -0.4, 0.7, 0.5).normalized()};
-  for (const Eigen::Quaterniond& turn : turns) {
-    ViewFrame frame;
-    frame.cloud.reset(new pcl::PointCloud<pcl::PointXYZ>);
-    frame.points.resize(128, 16);
-    frame.points.depth_measure = DepthMeasure::RANGE;
-    for (int i = 0; i < 128 * 16; ++i) {
-      const double azimuth = PI - 2.0 * PI * (i % 128) / 128.0; // forward is the middle
-      const double height = 0.3 - 0.05 * (i / 128);             // the rows go down
-      const Eigen::Vector3d p =
-          10.0 * (turn * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), height));
-      frame.points.set(static_cast<std::size_t>(i), static_cast<float>(p.x()),
-                       static_cast<float>(p.y()), static_cast<float>(p.z()));
-    }
-    const SensorView view = sensorView(frame);
-    EXPECT_GT(view.up.dot(turn * Eigen::Vector3d::UnitZ()), 0.99);
-    const Eigen::Vector3d from = turn.inverse() * view.position;
-    EXPECT_GT(from.z(), 3.0) << "above";
-    EXPECT_LT(from.x(), -3.0) << "behind, looking to where the middle of the image is";
-    EXPECT_NEAR(from.y(), 0.0, 1.0);
-  }
 }
 
 TEST_F(Model, ColoursStayWithTheirPlanesWhenParametersChange)

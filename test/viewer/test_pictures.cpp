@@ -43,6 +43,23 @@ protected:
     return read;
   }
 
+  /// A picture after each of the keys, one after the other in one window.
+  std::vector<io::ColourImage> pictures(const std::string& input,
+                                        const std::vector<std::string>& keys,
+                                        const std::string& size = "800x600")
+  {
+    std::string all;
+    for (const std::string& some : keys)
+      all += some + " k ";
+    const Outcome seen = view({input, "--screenshot", path("last.png"), "--keys", all,
+                               "--pictures", path("seen"), "--window", size});
+    EXPECT_EQ(seen.status, 0) << seen.err;
+    std::vector<io::ColourImage> read;
+    for (std::size_t k = 1; k <= keys.size(); ++k)
+      read.push_back(readPicture(path("seen_" + std::to_string(k) + ".png")));
+    return read;
+  }
+
   std::string log_;
 };
 
@@ -61,35 +78,90 @@ TEST_F(Pictures, HaveAColourForEveryPlane)
       countColour(seen, apps::labelColour(static_cast<std::uint32_t>(planes + 1))), 0u);
 }
 
-TEST_F(Pictures, ChangeWithEveryColourAndLayer)
+TEST_F(Pictures, ChangeWithEveryColourAndLayerAndBack)
 {
-  const std::string input = room("room.pcd");
-  const io::ColourImage plain = picture(input, "1");
-  // The second half of a pair: what the key adds must be there.
-  for (const char* keys :
-       {"2",     "3", "4", "5", "6", "c", "n", "g",   "t",     "i",
-        "i i i", "v", "a", "s", "f", "b", "h", "tab", "tab d", "tab o"})
-    EXPECT_GT(countDifferences(plain, picture(input, keys)), TEXT) << keys;
+  // Keys, what they must change, and keys that bring back the view.
+  const std::vector<std::pair<std::string, std::string>> pairs = {
+      {"2", "1"},       {"3", "1"},
+      {"4", "1"},       {"5", "1"},
+      {"6", "1"},       {"7", "1"},
+      {"8", "1"},       {"c", "c"},
+      {"n", "n"},       {"g", "g"},
+      {"x", "x x"},     {"x x", "x"},
+      {"t", "t"},       {"i", "i i i"},
+      {"i i i", "i"},   {"v", "v v v v"},
+      {"a", "a"},       {"s", "s"},
+      {"b", "b"},       {"h", "h"},
+      {"y", "r"},       {"y j", "r j"},
+      {"tab", "esc"},   {"tab d", "u"},
+      {"tab o", "esc"}, {"tab tab y", "esc r"}};
+  std::vector<std::string> keys = {"f"};
+  for (const auto& pair : pairs) {
+    keys.push_back(pair.first);
+    keys.push_back(pair.second);
+  }
+  const std::vector<io::ColourImage> seen = pictures(room("room.pcd"), keys);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    EXPECT_GT(countDifferences(seen[0], seen[2 * k + 1]), TEXT) << pairs[k].first;
+    EXPECT_EQ(countDifferences(seen[0], seen[2 * k + 2]), 0u)
+        << pairs[k].first << ' ' << pairs[k].second;
+  }
 }
 
-TEST_F(Pictures, KeysTwiceBringBackTheView)
+TEST_F(Pictures, PointsOnTheirPlanesMakeThinWallsFromAbove)
+{
+  // Ceiling and floor are hidden: what is left is seen edge-on, but for tables.
+  const std::vector<io::ColourImage> seen =
+      pictures(room("room.pcd"), {"f tab d tab tab y d", "j"});
+  const auto covered = [&](std::uint32_t plane) {
+    return std::make_pair(countColour(seen[0], apps::labelColour(plane)),
+                          countColour(seen[1], apps::labelColour(plane)));
+  };
+  for (const std::uint32_t wall : {3u, 4u, 5u}) {
+    const auto [measured, moved] = covered(wall);
+    EXPECT_GT(moved, 50u) << wall;
+    EXPECT_LT(static_cast<double>(moved), 0.8 * static_cast<double>(measured)) << wall;
+  }
+}
+
+TEST_F(Pictures, CoarseImagesHaveNoGaps)
+{
+  ASSERT_EQ(run(PCL_MRF_PLANES_SCENE_APP, {path("coarse.pcd"), "--noise", "0",
+                                           "--width", "160", "--height", "120"})
+                .status,
+            0);
+  const io::ColourImage seen = picture(path("coarse.pcd"), "f");
+  const io::Colour background = seen.pixels[0];
+  std::size_t gaps = 0;
+  for (int y = 150; y < 300; ++y) // what the middle of the image saw
+    for (int x = 200; x < 500; ++x)
+      gaps += seen.pixels[static_cast<std::size_t>(y * seen.width + x)] == background;
+  EXPECT_LT(gaps, 150u * 300u / 50u);
+}
+
+TEST_F(Pictures, HelpIsWholeInAnyWindow)
 {
   const std::string input = room("room.pcd");
-  const io::ColourImage plain = picture(input, "f");
-  for (const char* keys :
-       {"f c c", "f n n", "f g g", "f t t", "f i i i i", "f v v v v v", "f a a",
-        "f s s", "f b b", "f h h", "f tab d u", "f tab o esc"})
-    EXPECT_EQ(countDifferences(plain, picture(input, keys)), 0u) << keys;
+  for (const char* size : {"640x480", "1280x800"}) {
+    const std::vector<io::ColourImage> seen = pictures(input, {"f", "h"}, size);
+    const auto width = static_cast<std::size_t>(seen[0].width);
+    const std::size_t last_row = seen[0].pixels.size() - width;
+    EXPECT_GT(countDifferences(seen[0], seen[1]), 100u * TEXT) << size;
+    for (std::size_t i = 0; i < seen[0].pixels.size(); ++i)
+      if (i < width || i >= last_row || i % width == 0 || i % width + 1 == width) {
+        ASSERT_EQ(seen[0].pixels[i], seen[1].pixels[i]) << size << ": cut off at " << i;
+      }
+  }
 }
 
 TEST_F(Pictures, TextIsReadableOnDarkAndOnLight)
 {
-  const std::string input = room("room.pcd");
-  for (const std::string background : {"", " b"}) {
-    const io::ColourImage without = picture(input, "f" + background);
-    const io::ColourImage with = picture(input, "2 1" + background);
-    const io::Colour text =
-        background.empty() ? io::Colour{255, 255, 255} : io::Colour{0, 0, 0};
+  const std::vector<io::ColourImage> seen =
+      pictures(room("room.pcd"), {"f", "f", "f b", "f"});
+  for (const bool dark : {true, false}) {
+    const io::ColourImage& without = seen[dark ? 0 : 2];
+    const io::ColourImage& with = seen[dark ? 1 : 3];
+    const io::Colour text = dark ? io::Colour{255, 255, 255} : io::Colour{0, 0, 0};
     // What the text adds is strokes and, but for the strokes' soft edges, the plate
     // behind them.
     std::size_t strokes = 0, others = 0, readable = 0;
@@ -101,49 +173,48 @@ TEST_F(Pictures, TextIsReadableOnDarkAndOnLight)
       others += !is_stroke;
       readable += !is_stroke && contrast(text, with.pixels[i]) > 7.0; // WCAG 2, AAA
     }
-    EXPECT_GT(strokes, 300u) << background;
-    EXPECT_GT(others, 3000u) << background;
-    EXPECT_GT(static_cast<double>(readable), 0.8 * static_cast<double>(others))
-        << background;
+    EXPECT_GT(strokes, 300u) << dark;
+    EXPECT_GT(others, 3000u) << dark;
+    EXPECT_GT(static_cast<double>(readable), 0.8 * static_cast<double>(others)) << dark;
   }
 }
 
 TEST_F(Pictures, NothingHidesTheNumbersOfThePlanes)
 {
-  const std::string input = room("room.pcd");
   const io::Colour stroke = {0, 0, 0};
-  const io::ColourImage all = picture(input, "f b n");
-  std::string tabs;
-  for (int plane = 1; plane <= 5; ++plane) {
-    tabs += " tab";
-    const io::ColourImage alone = picture(input, "f b n" + tabs + " o");
-    std::size_t strokes = 0, seen = 0;
+  // All, then each of five alone.
+  const std::vector<io::ColourImage> seen =
+      pictures(room("room.pcd"), {"f b n", "tab o", "tab", "tab", "tab", "tab"});
+  const io::ColourImage& all = seen[0];
+  for (std::size_t plane = 1; plane < seen.size(); ++plane) {
+    const io::ColourImage& alone = seen[plane];
+    std::size_t strokes = 0, visible = 0;
     for (std::size_t i = 0; i < alone.pixels.size() * 4 / 5; ++i) // text is below
       if (alone.pixels[i] == stroke) {
         ++strokes;
-        seen += all.pixels[i] == stroke;
+        visible += all.pixels[i] == stroke;
       }
     EXPECT_GT(strokes, 10u) << plane;
-    EXPECT_EQ(seen, strokes) << plane;
+    EXPECT_EQ(visible, strokes) << plane;
   }
 }
 
 TEST_F(Pictures, CreasesAreConvexOrConcaveByColour)
 {
-  const io::ColourImage seen = picture(room("room.pcd"), "f g");
-  const io::ColourImage without = picture(room("room.pcd"), "f");
+  const std::vector<io::ColourImage> seen = pictures(room("room.pcd"), {"f", "g"});
   for (const io::Colour& colour : {io::Colour{213, 94, 0}, io::Colour{0, 114, 178}}) {
-    EXPECT_GT(countColour(seen, colour), 100u);
-    EXPECT_EQ(countColour(without, colour), 0u);
+    EXPECT_EQ(countColour(seen[0], colour), 0u);
+    EXPECT_GT(countColour(seen[1], colour), 100u);
   }
 }
 
 TEST_F(Pictures, SlidersStayWhenTheViewChanges)
 {
-  const std::string input = room("room.pcd");
   const io::Colour knob = {230, 158, 0};
-  EXPECT_EQ(countColour(picture(input, "f 2"), knob), 0u);
-  EXPECT_GT(countColour(picture(input, "f s 2"), knob), 500u);
+  const std::vector<io::ColourImage> seen =
+      pictures(room("room.pcd"), {"f 2", "1 s 2"});
+  EXPECT_EQ(countColour(seen[0], knob), 0u);
+  EXPECT_GT(countColour(seen[1], knob), 500u);
 }
 
 TEST_F(Pictures, FilmShowsEveryStep)
@@ -180,7 +251,7 @@ TEST_F(Pictures, FilmHasNoPictureOfAFrameThatCannotBeRead)
 {
   std::filesystem::create_directories(path("frames"));
   room("frames/a.pcd", 1);
-  std::ofstream(path("frames/b.pcd")) << "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\n";
+  brokenFrame("frames/b.pcd");
   room("frames/c.pcd", 2);
   const Outcome seen =
       view({path("frames"), "--film", path("film"), "--window", "320x240"});
@@ -203,7 +274,7 @@ TEST_F(Pictures, OutputThatIsNotTakenIsAnError)
 
 TEST_F(Pictures, BadInputIsAMessageAndAStatus)
 {
-  std::ofstream(path("broken.pcd")) << "VERSION 0.7\nFIELDS x y z\n";
+  brokenFrame("broken.pcd");
   std::filesystem::create_directories(path("empty"));
   for (const std::string name : {"broken.pcd", "empty", "missing.pcd"}) {
     const Outcome seen = view({path(name), "--screenshot", path("picture.png")});

@@ -117,7 +117,7 @@ TEST_F(Window, PassesOverABrokenFrame)
 {
   std::filesystem::create_directories(path("frames"));
   room("frames/0.pcd", 0);
-  std::ofstream(path("frames/1.pcd")) << "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\n";
+  brokenFrame("frames/1.pcd");
   room("frames/2.pcd", 2);
   const Outcome seen =
       drive(path("frames"), "xdotool key Right\nxdotool key Right\nxdotool key q");

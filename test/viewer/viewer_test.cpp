@@ -18,6 +18,12 @@ std::string ViewerTest::room(const std::string& name, int seed) const
   return file;
 }
 
+std::string ViewerTest::brokenFrame(const std::string& name) const
+{
+  write(name, "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\n");
+  return path(name);
+}
+
 Outcome ViewerTest::view(const std::vector<std::string>& arguments) const
 {
   std::vector<std::string> words = {"-u", "DISPLAY", PCL_MRF_PLANES_VIEWER_APP};
@@ -30,19 +36,25 @@ Outcome ViewerTest::drive(const std::string& input, const std::string& commands,
 {
   // No window manager: the window lies at the upper left, keys go to it once the pointer
   // is over it. xdotool speaks to the server as a keyboard and a mouse would (XTest).
+  // -r: on a machine under load a key would come up late enough to repeat itself.
   const std::string script = path("drive.sh");
-  std::ofstream(script) << "cd '" << path("") << "'\n"
-                        << "timeout 60 '" << PCL_MRF_PLANES_VIEWER_APP << "' '" << input
-                        << "' --log --window 1000x700 " << options << " &\n"
-                        << "viewer=$!\n"
-                        << "timeout 30 xdotool search --sync --onlyvisible --name "
-                           "pcl_mrf_plane_viewer >window 2>/dev/null\n"
-                        << "window=$(head -n 1 window)\n"
-                        << "sleep 1\n"
-                        << "xdotool mousemove 500 350\n"
-                        << commands << "\nwait $viewer\n";
+  // Its first line of log says that it takes keys.
+  write("drive.sh",
+        "cd '" + path("") + "'\n" + "timeout 60 '" PCL_MRF_PLANES_VIEWER_APP "' '" +
+            input + "' --log --window 1000x700 " + options +
+            " >log 2>errors &\n"
+            "viewer=$!\n"
+            "while kill -0 $viewer 2>/dev/null && ! [ -s log ]; do\n"
+            "  sleep 0.02\n"
+            "done\n"
+            "window=$(timeout 30 xdotool search --sync --onlyvisible --name "
+            "pcl_mrf_plane_viewer 2>/dev/null | head -n 1)\n"
+            "xdotool mousemove 500 350\n" +
+            commands +
+            "\nwait $viewer\nstatus=$?\ncat log\ncat errors >&2\n"
+            "exit $status\n");
   return run("/usr/bin/env", {"-u", "DISPLAY", "xvfb-run", "-a", "-s",
-                              "-noreset -screen 0 1280x1024x24", "sh", script});
+                              "-noreset -r -screen 0 1280x1024x24", "sh", script});
 }
 
 io::ColourImage readPicture(const std::string& path)

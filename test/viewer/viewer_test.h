@@ -17,6 +17,9 @@ protected:
   /** \brief Write a generated room of 320x240 points. */
   std::string room(const std::string& name, int seed = 0) const;
 
+  /** \brief Write a PCD that ends within its header. */
+  std::string brokenFrame(const std::string& name) const;
+
   /** \brief Run the viewer without a display of its own. */
   Outcome view(const std::vector<std::string>& arguments) const;
 

@@ -3,6 +3,7 @@
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 #include <pcl_mrf_planes/region_contour.h>
+#include <pcl_mrf_planes/thread_scope.h>
 
 #include <pcl/console/print.h>
 
@@ -26,9 +27,11 @@ void MRFPlaneSegmentation<PointT>::segment(
     std::vector<ModelCoefficients>& model_coefficients,
     std::vector<PointIndices>& inlier_indices)
 {
-  model_coefficients.clear();
-  inlier_indices.clear();
-  run([&] { fillModels(model_coefficients, inlier_indices); });
+  const bool done = run([&] { fillModels(model_coefficients, inlier_indices); });
+  if (!done) {
+    model_coefficients.clear();
+    inlier_indices.clear();
+  }
 }
 
 template <typename PointT>
@@ -89,37 +92,46 @@ void MRFPlaneSegmentation<PointT>::segmentAndRefine(
 
 template <typename PointT>
 template <typename Fill>
-void MRFPlaneSegmentation<PointT>::run(const Fill& fill)
+bool MRFPlaneSegmentation<PointT>::run(const Fill& fill)
 {
-  result_ = {};
   wholes_.clear();
-  if (!initCompute()) // has said why
-    return;
+  bool done = false;
+  if (initCompute()) { // else it has said why
+    done = checkInput() && tryToSegment(fill);
+    deinitCompute();
+  }
+  if (!done)
+    result_ = {};
+  return done;
+}
+
+template <typename PointT>
+template <typename Fill>
+bool MRFPlaneSegmentation<PointT>::tryToSegment(const Fill& fill)
+{
   try {
-    if (checkInput()) {
-      const auto start = std::chrono::steady_clock::now();
-      readPoints();
-      const std::chrono::duration<double, std::milli> reading =
-          std::chrono::steady_clock::now() - start;
-      result_ = pcl_mrf_planes::segmentPlanes(points_, parameters_);
-      auto& stages = result_.report.stage_ms;
-      stages.emplace(stages.begin(), "points", reading.count());
-      if (separate_patches_)
-        separatePatches();
-      fill();
-    }
+    const auto start = std::chrono::steady_clock::now();
+    const pcl_mrf_planes::ThreadScope threads(parameters_.number_of_threads);
+    readPoints();
+    const std::chrono::duration<double, std::milli> reading =
+        std::chrono::steady_clock::now() - start;
+    segmenter_.segment(points_, parameters_, result_);
+    auto& stages = result_.report.stage_ms;
+    stages.emplace(stages.begin(), "points", reading.count());
+    if (separate_patches_)
+      separatePatches();
+    fill();
+    return true;
   }
   catch (const std::bad_alloc&) {
     PCL_ERROR("[pcl::%s::segment] Not enough memory for %zu points; segment the cloud "
               "in parts.\n",
               getClassName(), input_->size());
-    result_ = {};
   }
   catch (const std::exception& error) {
     PCL_ERROR("[pcl::%s::segment] %s\n", getClassName(), error.what());
-    result_ = {};
   }
-  deinitCompute();
+  return false;
 }
 
 template <typename PointT>
@@ -272,18 +284,20 @@ void MRFPlaneSegmentation<PointT>::fillModels(
     std::vector<ModelCoefficients>& model_coefficients,
     std::vector<PointIndices>& inlier_indices) const
 {
-  for (const auto& region : result_.regions) {
-    ModelCoefficients model;
+  // What is there already is written over: a sequence needs no new memory.
+  model_coefficients.resize(result_.regions.size());
+  inlier_indices.resize(result_.regions.size());
+  for (std::size_t k = 0; k < result_.regions.size(); ++k) {
+    const auto& region = result_.regions[k];
+    ModelCoefficients& model = model_coefficients[k];
     model.header = input_->header;
-    const Eigen::Vector4d abcd = coefficients(region.plane);
-    for (const double value : {abcd[0], abcd[1], abcd[2], abcd[3]})
-      model.values.push_back(static_cast<float>(value));
-    model_coefficients.push_back(std::move(model));
+    model.values.resize(4);
+    Eigen::Vector4f::Map(model.values.data()) =
+        coefficients(region.plane).template cast<float>();
 
-    PointIndices inliers;
+    PointIndices& inliers = inlier_indices[k];
     inliers.header = input_->header;
     inliers.indices.assign(region.indices.begin(), region.indices.end());
-    inlier_indices.push_back(std::move(inliers));
   }
 }
 

@@ -23,6 +23,10 @@ coordinates(const CloudFile& file);
 /** \brief Colour of every point from a field rgb or rgba; empty if there is none. */
 PCL_MRF_PLANES_EXPORT std::vector<Colour> colours(const CloudFile& file);
 
+/** \brief Label of every point from a field label of whole numbers; empty if there is
+ * none. Negative ones are 0, no label. */
+PCL_MRF_PLANES_EXPORT std::vector<std::uint32_t> labels(const CloudFile& file);
+
 /** \brief The same cloud with a last field label (uint32); a field of that name is
  * dropped, and so is padding.
  * \param[in] file the cloud
