@@ -21,6 +21,13 @@ struct BlockGrid {
   }
   int block(int row, int column) const { return row * columns() + column; }
 
+  /** \brief Index of a point in the cloud. */
+  std::size_t point(int row, int column) const
+  {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(column);
+  }
+
   /** \brief The block of a point, -1: none. */
   int blockAt(int point_row, int point_column) const
   {

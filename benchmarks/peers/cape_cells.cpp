@@ -52,7 +52,7 @@ Cell fitCell(const Cloud& cloud, std::size_t first, const Parameters& parameters
         sums.add(point->x, point->y, point->z);
   }
   const std::size_t middle = static_cast<std::size_t>(side / 2);
-  if (sums.n < side * side / 2 ||
+  if (2.0 * sums.n < side * side ||
       hasStep(cloud, first + middle * width, 1, side, parameters.depth_step) ||
       hasStep(cloud, first + middle, width, side, parameters.depth_step))
     return cell;
@@ -73,11 +73,10 @@ std::vector<Cell> fitCells(const Cloud& cloud, const BlockGrid& grid,
                            const Parameters& parameters)
 {
   std::vector<Cell> cells;
+  cells.reserve(grid.size());
   for (int cell = 0; cell < static_cast<int>(grid.size()); ++cell)
-    cells.push_back(fitCell(cloud,
-                            static_cast<std::size_t>(grid.firstRow(cell) * grid.width +
-                                                     grid.firstColumn(cell)),
-                            parameters));
+    cells.push_back(fitCell(
+        cloud, grid.point(grid.firstRow(cell), grid.firstColumn(cell)), parameters));
   return cells;
 }
 

@@ -50,9 +50,9 @@ std::vector<Segment> growSegments(const std::vector<Cell>& cells, const BlockGri
 {
   const double least_cosine = std::cos(parameters.angle * M_PI / 180.0);
   NormalHistogram histogram(cells, parameters.histogram_bins);
-  std::vector<bool> is_free;
-  for (const Cell& cell : cells)
-    is_free.push_back(cell.is_planar);
+  std::vector<bool> is_free(cells.size());
+  std::transform(cells.begin(), cells.end(), is_free.begin(),
+                 [](const Cell& cell) { return cell.is_planar; });
   std::vector<Segment> segments;
   for (;;) {
     const std::vector<int> seeds = histogram.fullestBin();

@@ -81,7 +81,7 @@ private:
     const int top = grid_.firstRow(cell), left = grid_.firstColumn(cell);
     for (int row = top; row < top + grid_.side; ++row)
       for (int column = left; column < left + grid_.side; ++column) {
-        const auto i = static_cast<std::size_t>(row * grid_.width + column);
+        const std::size_t i = grid_.point(row, column);
         if (std::isfinite(cloud_[i].z))
           visit(i);
       }

@@ -28,7 +28,8 @@ struct Parameters {
   double merge_angle = 60.0;                  ///< between segments that merge
   double refine_angle = 30.0; ///< between segments that meet while they grow
   double depth_change = 0.04; ///< between neighbouring points, share of the depth
-  double depth_change_offset = 0.00002;
+  double depth_change_offset = 0.00002; ///< as published with the program; the paper's
+                                        ///< 2 alpha (z + 0.5) would be 0.02
 
   /** \brief Largest mean squared distance of a block, or of a segment, from its plane;
    * section III-A, T_MSE. */
@@ -55,7 +56,8 @@ struct Graph {
   std::vector<bool> is_in_use; ///< of each node; those that were rejected are not
 };
 
-/** \brief The graph of the blocks; algorithm 2, InitGraph. */
+/** \brief The graph of the blocks; algorithm 2, InitGraph, but that not every block is
+ * the middle of a triple that is tested for a crease: see ChainOfBlocks. */
 Graph makeGraph(const Cloud& cloud, const Parameters& parameters);
 
 /** \brief What clustering found. */

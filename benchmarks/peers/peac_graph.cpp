@@ -38,8 +38,7 @@ std::optional<ScatterMatrix> sumsOf(const Cloud& cloud, const BlockGrid& grid,
   const int first_row = grid.firstRow(block), first_column = grid.firstColumn(block);
   for (int row = first_row; row < first_row + grid.side; ++row)
     for (int column = first_column; column < first_column + grid.side; ++column) {
-      const auto* point =
-          &cloud.points[static_cast<std::size_t>(row * grid.width + column)];
+      const auto* point = &cloud.points[grid.point(row, column)];
       if (!isValid(*point)) {
         if (!parameters.loose_start)
           return std::nullopt;
@@ -52,12 +51,6 @@ std::optional<ScatterMatrix> sumsOf(const Cloud& cloud, const BlockGrid& grid,
     }
   const double least = parameters.loose_start ? 0.5 * squared(grid.side) : 1.0;
   return sums.n > least ? std::optional(sums) : std::nullopt;
-}
-
-void link(Graph& graph, int a, int b)
-{
-  graph.nodes[static_cast<std::size_t>(a)].neighbours.push_back(b);
-  graph.nodes[static_cast<std::size_t>(b)].neighbours.push_back(a);
 }
 
 /// Walks along a row or a column of blocks and links them: three in a row, if none is

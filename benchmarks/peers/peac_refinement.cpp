@@ -104,18 +104,13 @@ private:
     };
     for (int row = top; row <= top + last; ++row)
       for (int column = left; column <= left + last; ++column) {
-        plane_[index(row, column)] = plane;
+        plane_[grid_.point(row, column)] = plane;
         if ((row == top && grows(row - 1, column)) ||
             (row == top + last && grows(row + 1, column)) ||
             (column == left && grows(row, column - 1)) ||
             (column == left + last && grows(row, column + 1)))
           queue_.push_back({row, column, plane});
       }
-  }
-
-  std::size_t index(int row, int column) const
-  {
-    return static_cast<std::size_t>(row * grid_.width + column);
   }
 
   /// Whether a point lies in a block that erosion has left.
@@ -130,7 +125,7 @@ private:
   {
     if (row < 0 || column < 0 || row >= grid_.height || column >= grid_.width)
       return;
-    const std::size_t point = index(row, column);
+    const std::size_t point = grid_.point(row, column);
     const int owner = plane_[point];
     if (owner == plane || isInside(row, column))
       return;
