@@ -324,6 +324,40 @@ TEST(ClassOutputTest, RunsAndThreadsGiveTheSameBits)
   }
 }
 
+TEST(ClassOutputTest, OutputsThatAreGivenAgainAreWrittenOver)
+{
+  const Cloud::Ptr large = reference::toCloud<pcl::PointXYZ>(room(231, 177));
+  const Cloud::Ptr small = reference::toCloud<pcl::PointXYZ>(
+      reference::takePicture("corner", 120, 90, 4, scenes::SensorNoise::kinect()));
+  large->header.frame_id = "large";
+  small->header.frame_id = "small";
+  Segmentation used;
+  std::vector<pcl::ModelCoefficients> models(1);
+  std::vector<pcl::PointIndices> inliers(50);
+  for (const Cloud::Ptr& cloud : {large, small, large}) {
+    used.setInputCloud(cloud);
+    used.segment(models, inliers);
+    Segmentation unused;
+    unused.setInputCloud(cloud);
+    std::vector<pcl::ModelCoefficients> expected_models;
+    std::vector<pcl::PointIndices> expected_inliers;
+    unused.segment(expected_models, expected_inliers);
+    ASSERT_EQ(models.size(), expected_models.size());
+    ASSERT_EQ(inliers.size(), models.size());
+    for (std::size_t k = 0; k < models.size(); ++k) {
+      EXPECT_EQ(models[k].values, expected_models[k].values);
+      EXPECT_EQ(models[k].header.frame_id, cloud->header.frame_id);
+      EXPECT_EQ(inliers[k].indices, expected_inliers[k].indices);
+      EXPECT_EQ(inliers[k].header.frame_id, cloud->header.frame_id);
+    }
+  }
+  used.setInputCloud(Cloud::Ptr(new Cloud));
+  used.segment(models, inliers);
+  EXPECT_TRUE(models.empty()) << "an empty cloud has no planes";
+  EXPECT_TRUE(inliers.empty());
+  EXPECT_TRUE(used.getResult().regions.empty());
+}
+
 /// The calls of a program that used pcl::OrganizedMultiPlaneSegmentation.
 template <typename SegmentationT>
 std::size_t programOfAUser(SegmentationT& segmentation, const Cloud::ConstPtr& cloud)
