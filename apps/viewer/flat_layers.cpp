@@ -13,6 +13,12 @@
 
 namespace pcl_mrf_planes::viewer {
 
+namespace {
+
+constexpr int THIN = 13; // below it strokes are less than a pixel wide
+
+} // namespace
+
 vtkSmartPointer<vtkProp> imageLayer(const io::ColourImage& image)
 {
   vtkNew<vtkImageData> data;
@@ -43,6 +49,7 @@ vtkSmartPointer<vtkProp> textLayer(const std::string& text, double x, double y,
   vtkTextProperty* property = actor->GetTextProperty();
   property->SetFontFamilyToCourier();
   property->SetFontSize(font_size);
+  property->SetBold(font_size < THIN ? 1 : 0);
   dressText(property, dark);
   if (from_top)
     property->SetVerticalJustificationToTop();

@@ -71,6 +71,6 @@ Props scaleLayer(const ColourScale& scale, double right, bool dark);
 /** \brief Lines of text on a plate; (x, y) in shares of the window.
  * \param[in] from_top y is the upper edge, else the lower */
 vtkSmartPointer<vtkProp> textLayer(const std::string& text, double x, double y,
-                                   bool from_top, bool dark, int font_size = 15);
+                                   bool from_top, bool dark, int font_size);
 
 } // namespace pcl_mrf_planes::viewer

@@ -52,6 +52,14 @@ vtkSmartPointer<vtkProp> helpText(int window_height, bool dark)
                    std::max(SMALLEST, std::min(LARGEST, size)));
 }
 
+/// Text takes no more of a small window than of a large one, as long as it can be read.
+int textSize(int window_height)
+{
+  constexpr int LARGEST = 15;
+  constexpr int SMALLEST = 11;
+  return std::max(SMALLEST, std::min(LARGEST, window_height / 40));
+}
+
 } // namespace
 
 Props SessionPicture::view(const SegmentedView& result,
@@ -180,14 +188,18 @@ Props SessionPicture::texts() const
 {
   const ViewSettings& settings = session_.settings;
   const bool dark = settings.dark;
+  const int height = screen_.window()->GetSize()[1];
+  const auto text = [&](const std::string& lines, double x, double y, bool from_top) {
+    return textLayer(lines, x, y, from_top, dark, textSize(height));
+  };
   if (settings.help)
-    return {helpText(screen_.window()->GetSize()[1], dark)};
+    return {helpText(height, dark)};
   Props props;
   if (settings.facts) {
-    props.push_back(textLayer(factsText(session_), 0.01, 0.985, true, dark));
+    props.push_back(text(factsText(session_), 0.01, 0.985, true));
     if (session_.compares())
-      props.push_back(textLayer(comparisonText(session_),
-                                0.5 * screen_.viewEnd() + 0.01, 0.985, true, dark));
+      props.push_back(
+          text(comparisonText(session_), 0.5 * screen_.viewEnd() + 0.01, 0.985, true));
   }
   if (left_.scale && session_.filmStep() == nullptr)
     append(scaleLayer(*left_.scale, screen_.viewEnd(), dark), props);
@@ -198,8 +210,7 @@ Props SessionPicture::texts() const
   below += session_.message();
   if (!below.empty())
     // Sliders reach down to where it would stand.
-    props.push_back(
-        textLayer(below, settings.sliders ? 0.29 : 0.01, 0.015, false, dark));
+    props.push_back(text(below, settings.sliders ? 0.29 : 0.01, 0.015, false));
   return props;
 }
 

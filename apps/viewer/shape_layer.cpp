@@ -66,7 +66,7 @@ public:
     data->SetPoints(points_);
     data->SetLines(lines_);
     data->GetCellData()->SetScalars(colours_);
-    const vtkSmartPointer<vtkActor> actor = actorOf(data, nearness);
+    vtkSmartPointer<vtkActor> actor = actorOf(data, nearness);
     actor->GetMapper()->SetScalarVisibility(coloured ? 1 : 0);
     actor->GetProperty()->SetColor(shade_, shade_, shade_);
     actor->GetProperty()->SetLineWidth(width);
@@ -81,7 +81,7 @@ public:
     vtkNew<vtkPolyData> data;
     data->SetPoints(points_);
     data->SetVerts(dots);
-    const vtkSmartPointer<vtkActor> actor = actorOf(data, nearness);
+    vtkSmartPointer<vtkActor> actor = actorOf(data, nearness);
     actor->GetProperty()->SetColor(shade_, shade_, shade_);
     actor->GetProperty()->SetPointSize(size);
     return actor;
