@@ -115,7 +115,8 @@ private:
   /// The labels of a row of samples, each as often as it stands for points.
   void widen(const std::uint16_t* samples, std::vector<std::uint16_t>& wide) const
   {
-    wide.resize(static_cast<std::size_t>(samples_.width * every_));
+    wide.resize(static_cast<std::size_t>(samples_.width) *
+                static_cast<std::size_t>(every_));
     withStep(every_, [&](auto step) { widenBy(step, samples, wide.data()); });
   }
 
