@@ -22,7 +22,7 @@ LINE = 64  # bytes
 PROFILES = ['FAST', 'DEFAULT', 'PAPER', 'PAPER_10_LABELS']
 # Functions that call the stages; what else they call is "other".
 DRIVERS = re.compile(r'(segmentObserved|labelPlanes|segmentAsInPaper|segmentAdaptively|'
-                     r'inferLabels|MRFPlaneSegmentation<[^(]*>::\w+)\(')
+                     r'inferLabels|PlaneSegmenter::segment|MRFPlaneSegmentation<[^(]*>::\w+)\(')
 STAGES = {
     'points': r'OrganizedPoints::(load|resolveDepthMeasure)\(',
     'sampling': r'adaptive::(samplePoints|spreadLabels)\(',
@@ -35,7 +35,7 @@ STAGES = {
     'refinement': r'adaptive::(refineRegions|dropDoubtfulPlanes)\(',
     'regions': r'::(gatherRegions|paintRegions|regionLabels)\(',
 }
-WHOLE = re.compile(r'^pcl_mrf_planes::segmentPlanes\(')
+WHOLE = re.compile(r'^pcl_mrf_planes::PlaneSegmenter::segment\(')
 
 
 class Profile:

@@ -107,6 +107,7 @@ void PlaneSegmenter::segment(const OrganizedPoints& points,
 {
   const ThreadTeam team(parameters.number_of_threads);
   if (parameters.method == Method::PAPER) {
+    result = {}; // not two at a time
     result = segmentAsInPaper(points, parameters);
     return;
   }
