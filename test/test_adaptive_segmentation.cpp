@@ -159,6 +159,35 @@ TEST(AdaptiveSceneTest, FastLabelsAllPointsNearlyAsWell)
   }
 }
 
+/// A wall two metres away, and in the middle a third of it something at another depth.
+OrganizedPoints wallWith(double depth_in_the_middle)
+{
+  constexpr int WIDTH = 180;
+  constexpr int HEIGHT = 120;
+  OrganizedPoints points;
+  points.resize(WIDTH, HEIGHT);
+  for (int v = 0; v < HEIGHT; ++v)
+    for (int u = 0; u < WIDTH; ++u) {
+      const double z = u / (WIDTH / 3) == 1 ? depth_in_the_middle : 2.0;
+      points.set(static_cast<std::size_t>(v * WIDTH + u),
+                 static_cast<float>((u - WIDTH / 2) * z / WIDTH),
+                 static_cast<float>((v - HEIGHT / 2) * z / WIDTH),
+                 static_cast<float>(z));
+    }
+  return points;
+}
+
+TEST(AdaptiveSceneTest, PartsOfAWallJoinBehindAPostAndNotAcrossAnOpening)
+{
+  Parameters parameters;
+  EXPECT_EQ(segmentPlanes(wallWith(1.5), parameters).regions.size(), 2U)
+      << "the post hides that the wall goes on";
+  EXPECT_EQ(segmentPlanes(wallWith(2.5), parameters).regions.size(), 3U)
+      << "what is seen between the parts lies behind them";
+  parameters.adaptive.join_over_occluders = false;
+  EXPECT_EQ(segmentPlanes(wallWith(1.5), parameters).regions.size(), 3U);
+}
+
 TEST(AdaptiveSceneTest, AStepOfTwentyCentimetresIsTwoPlanes)
 {
   for (const SensorNoise& noise : {SensorNoise::none(), SensorNoise::kinect()}) {
