@@ -106,7 +106,8 @@ std::vector<FrameSource> framesOfNyu(const fs::path& file, const std::string& st
       frames.push_back(
           sourceOf(file, start + frameName(file) + number, "nyu-labeled",
                    [=] { return readNyuFrame(file.string(), i, options); }));
-      frames.back().input += "#" + std::to_string(i + 1);
+      frames.back().input += '#';
+      frames.back().input += std::to_string(i + 1);
     }
   }
   catch (const std::runtime_error& error) {

@@ -140,8 +140,11 @@ std::string wholeName(const fs::path& path)
 {
   std::string name;
   for (const fs::path& part : path.lexically_normal().relative_path())
-    if (part != "..")
-      name += (name.empty() ? "" : "/") + part.string();
+    if (part != "..") {
+      if (!name.empty())
+        name += '/';
+      name += part.string();
+    }
   return name;
 }
 
