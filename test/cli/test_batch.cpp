@@ -188,7 +188,7 @@ TEST_F(Batch, ASecondInterruptionEndsAtOnceWithoutHalfFiles)
   const std::string command =
       std::string("'") + PCL_MRF_PLANES_SEGMENTATION_APP + "' '" + path("in") +
       "' --output-folder '" + path("out") +
-      "' --write cloud,labels,overlay,ply --jobs 2 --repeat 50 & pid=$!; until [ -e '" +
+      "' --write cloud,labels,overlay,ply --jobs 2 --repeat 400 & pid=$!; until [ -e '" +
       path("out/103.json") + "' ]; do sleep 0.01; done; " +
       "kill -INT $pid; kill -TERM $pid; wait $pid";
   const Outcome outcome = run("/bin/bash", {"-c", command});
