@@ -185,12 +185,12 @@ TEST_F(Batch, ASecondInterruptionEndsAtOnceWithoutHalfFiles)
 {
   for (int i = 100; i < 140; ++i)
     writeScene("in/" + std::to_string(i) + ".pcd");
-  const std::string command =
-      std::string("'") + PCL_MRF_PLANES_SEGMENTATION_APP + "' '" + path("in") +
-      "' --output-folder '" + path("out") +
-      "' --write cloud,labels,overlay,ply --jobs 2 --repeat 400 & pid=$!; until [ -e '" +
-      path("out/103.json") + "' ]; do sleep 0.01; done; " +
-      "kill -INT $pid; kill -TERM $pid; wait $pid";
+  const std::string command = std::string("'") + PCL_MRF_PLANES_SEGMENTATION_APP +
+                              "' '" + path("in") + "' --output-folder '" + path("out") +
+                              "' --write cloud,labels,overlay,ply --jobs 2 --repeat "
+                              "400 & pid=$!; until [ -e '" +
+                              path("out/103.json") + "' ]; do sleep 0.01; done; " +
+                              "kill -INT $pid; kill -TERM $pid; wait $pid";
   const Outcome outcome = run("/bin/bash", {"-c", command});
   EXPECT_GT(outcome.status, 128);
   EXPECT_THAT(partialFiles(), IsEmpty());
