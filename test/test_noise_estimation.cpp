@@ -15,6 +15,16 @@ constexpr int HEIGHT = 256;
 constexpr int SIDE = 16; // of a patch, points
 constexpr double SIGMA = 0.01;
 
+/// The point that a pinhole camera sees at a depth.
+void setDepth(OrganizedPoints& points, int u, int v, double z)
+{
+  constexpr double FOCAL_LENGTH = 300.0;
+  points.set(static_cast<std::size_t>(v * WIDTH + u),
+             static_cast<float>(z * (u - WIDTH / 2) / FOCAL_LENGTH),
+             static_cast<float>(z * (v - HEIGHT / 2) / FOCAL_LENGTH),
+             static_cast<float>(z));
+}
+
 /// Patches seen from the front, 2 m away at the top and 10 m at the bottom. Of those beyond
 /// 6 m a share is clutter, thicker the farther it is.
 OrganizedPoints patches(double clutter)
@@ -32,10 +42,7 @@ OrganizedPoints patches(double clutter)
         for (int u = left; u < left + SIDE; ++u) {
           const double z = depth + (is_clutter ? thickness * (random.uniform() - 0.5)
                                                : SIGMA * random.normal());
-          points.set(static_cast<std::size_t>(v * WIDTH + u),
-                     static_cast<float>(z * (u - WIDTH / 2) / 300.0),
-                     static_cast<float>(z * (v - HEIGHT / 2) / 300.0),
-                     static_cast<float>(z));
+          setDepth(points, u, v, z);
         }
     }
   return points;
@@ -79,10 +86,7 @@ OrganizedPoints roundedPatches()
         for (int u = left; u < left + SIDE; ++u) {
           const double disparity = FOCAL_LENGTH_TIMES_BASE / depth - slope * (u - left);
           const double z = FOCAL_LENGTH_TIMES_BASE / std::round(disparity);
-          points.set(static_cast<std::size_t>(v * WIDTH + u),
-                     static_cast<float>(z * (u - WIDTH / 2) / 300.0),
-                     static_cast<float>(z * (v - HEIGHT / 2) / 300.0),
-                     static_cast<float>(z));
+          setDepth(points, u, v, z);
         }
     }
   return points;

@@ -20,6 +20,9 @@ constexpr std::size_t SETTLED = CandidateField::SETTLED;
 
 enum Side : std::size_t { LEFT, RIGHT, ABOVE, BELOW, SIDES };
 
+static_assert(sizeof(Messages::from) == SIDES * sizeof(BlockRow::Numbers),
+              "a message from each side");
+
 constexpr Side opposite(Side side)
 {
   return static_cast<Side>(side ^ 1U);

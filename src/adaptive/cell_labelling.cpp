@@ -172,7 +172,7 @@ private:
       return false;
     const int* above = &labels_[cells_.at(2 * column, 2 * row)];
     const int* below = above + cells_.columns;
-    return ((above[1] ^ label) | (below[0] ^ label) | (below[1] ^ label)) == 0;
+    return above[1] == label && below[0] == label && below[1] == label;
   }
 
   void addCells(int column, int row)
@@ -222,13 +222,11 @@ TileRegions labelCells(const TileRegions& regions,
     out.planes.push_back(plane);
     out.sums.push_back(sums[k]);
   }
-  id.push_back(NONE); // of those without label
   out.cell_region.resize(field.labels().size());
-  std::transform(
-      field.labels().begin(), field.labels().end(), out.cell_region.begin(),
-      [&](int label) {
-        return id[label < 0 ? id.size() - 1 : static_cast<std::size_t>(label)];
-      });
+  std::transform(field.labels().begin(), field.labels().end(), out.cell_region.begin(),
+                 [&](int label) {
+                   return label < 0 ? NONE : id[static_cast<std::size_t>(label)];
+                 });
   return out;
 }
 

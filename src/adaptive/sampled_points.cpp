@@ -28,6 +28,12 @@ struct NearPlane {
   }
 };
 
+/// Samples of a row or a column of so many points.
+int samplesOf(int length, int every)
+{
+  return (length + every - 1) / every;
+}
+
 /// Calls work(every); the compiler knows the usual ones.
 template <typename Work>
 void withStep(int every, const Work& work)
@@ -218,13 +224,13 @@ private:
 
 int samplingStep(const OrganizedPoints& points, const AdaptiveParameters& parameters)
 {
-  const auto samples = [](int length, int every) {
-    return (static_cast<std::size_t>(length) + static_cast<std::size_t>(every) - 1) /
-           static_cast<std::size_t>(every);
+  const auto samples = [&](int every) {
+    return static_cast<std::size_t>(samplesOf(points.width, every)) *
+           static_cast<std::size_t>(samplesOf(points.height, every));
   };
   int every = parameters.sampling;
-  while (every > 1 && samples(points.width, every) * samples(points.height, every) <
-                          static_cast<std::size_t>(parameters.least_samples))
+  while (every > 1 &&
+         samples(every) < static_cast<std::size_t>(parameters.least_samples))
     --every;
   return every;
 }
@@ -240,8 +246,7 @@ OrganizedPoints samplePoints(const OrganizedPoints& points, int every,
 void samplePoints(const OrganizedPoints& points, int every, unsigned int threads,
                   OrganizedPoints& samples)
 {
-  samples.setSize((points.width + every - 1) / every,
-                  (points.height + every - 1) / every);
+  samples.setSize(samplesOf(points.width, every), samplesOf(points.height, every));
   samples.depth_measure = points.depth_measure;
   const auto step = static_cast<std::size_t>(every);
   const auto columns = static_cast<std::size_t>(samples.width);

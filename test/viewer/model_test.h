@@ -4,6 +4,8 @@
 #include "session.h"
 #include "viewer_test.h"
 
+#include <pcl_mrf_planes/mrf_plane_segmentation.h>
+
 #include <string>
 #include <vector>
 
@@ -17,6 +19,19 @@ protected:
   {
     return viewer::Session(io::listFrames(inputs, {}).frames,
                            Parameters::fromProfile(profile), profile);
+  }
+
+  /// Of the planes of a session's frame in profile DEFAULT, by the class itself.
+  static std::vector<PlaneUncertainty> uncertaintiesOf(const viewer::Session& session)
+  {
+    pcl::MRFPlaneSegmentation<pcl::PointXYZ> segmentation;
+    segmentation.setInputCloud(session.frame().cloud);
+    std::vector<pcl::ModelCoefficients> models;
+    std::vector<pcl::PointIndices> inliers;
+    segmentation.segment(models, inliers);
+    std::vector<PlaneUncertainty> uncertainties;
+    segmentation.computeUncertainties(uncertainties);
+    return uncertainties;
   }
 };
 

@@ -205,13 +205,7 @@ TEST_F(Model, DistancesAreThoseToThePlane)
 TEST_F(Model, DeviationsAreThoseOfTheCovariance)
 {
   Session session = open({room("room.pcd")});
-  pcl::MRFPlaneSegmentation<pcl::PointXYZ> segmentation;
-  segmentation.setInputCloud(session.frame().cloud);
-  std::vector<pcl::ModelCoefficients> models;
-  std::vector<pcl::PointIndices> inliers;
-  segmentation.segment(models, inliers);
-  std::vector<PlaneUncertainty> expected;
-  segmentation.computeUncertainties(expected);
+  const std::vector<PlaneUncertainty> expected = uncertaintiesOf(session);
   const std::vector<PlaneDeviations> deviations = session.main().deviations();
   ASSERT_EQ(deviations.size(), expected.size());
   ASSERT_GE(deviations.size(), 2u);

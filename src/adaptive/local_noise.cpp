@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The noise of each tile: the law of the cloud, raised where the tiles around all show more.
+#include "adaptive/noise_estimation.h"
+#include "adaptive/tile_rms.h"
+#include "threads.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_mrf_planes::adaptive {
+
+namespace {
+
+/// Noise of the points of each tile over that of the whole cloud; 0 where it has no plane.
+std::vector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise)
+{
+  std::vector<double> ratios(level.planes.size(), 0.0);
+  for (std::size_t i = 0; i < ratios.size(); ++i)
+    if (const FittedPlane& p = level.planes[i]; p.n > 3)
+      ratios[i] = unbiasedRms(p) / noise.small(p.centroid.norm());
+  return ratios;
+}
+
+/// A rectangle of tiles, half open.
+struct TileWindow {
+  int left, right, top, bottom;
+};
+
+/// How many tiles of any window are so: from sums over all that lie above and to the left.
+class TileCounts {
+public:
+  template <typename Predicate>
+  TileCounts(const TileLevel& level, const Predicate& is_so)
+  : stride_(static_cast<std::size_t>(level.columns) + 1)
+  , sums_(stride_ * (static_cast<std::size_t>(level.rows) + 1), 0)
+  {
+    for (int r = 0; r < level.rows; ++r) {
+      int row = 0;
+      for (int c = 0; c < level.columns; ++c) {
+        row += is_so(level.at(c, r)) ? 1 : 0;
+        sums_[at(c + 1, r + 1)] = sums_[at(c + 1, r)] + row;
+      }
+    }
+  }
+
+  int in(const TileWindow& window) const
+  {
+    return sums_[at(window.right, window.bottom)] -
+           sums_[at(window.left, window.bottom)] - sums_[at(window.right, window.top)] +
+           sums_[at(window.left, window.top)];
+  }
+
+private:
+  std::size_t at(int column, int row) const
+  {
+    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column);
+  }
+
+  std::size_t stride_;
+  std::vector<int> sums_;
+};
+
+/// Noise around each square of 2x2 tiles of a level over that of the whole cloud: a low
+/// percentile of the tiles near, so that edges do not count.
+std::vector<double> localFactors(const TileLevel& level, const TileLevel& squares,
+                                 const NoiseLaw& noise,
+                                 const AdaptiveParameters& parameters,
+                                 unsigned int threads)
+{
+  constexpr int FEWEST = 4; // tiles for a percentile
+  const int reach = parameters.local_reach;
+  const std::vector<double> ratios = noiseRatios(level, noise);
+  const TileCounts with_plane(level, [&](std::size_t i) { return ratios[i] > 0; });
+  const TileCounts quiet(
+      level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
+  std::vector<double> factors(squares.at(0, squares.rows), 1.0);
+  const auto findRow = [&](int r, std::vector<double>& around) {
+    for (int c = 0; c < squares.columns; ++c) {
+      const TileWindow window = {
+          std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
+          std::max(0, 2 * r - reach), std::min(level.rows, 2 * r + 2 + reach)};
+      const int tiles = with_plane.in(window);
+      if (tiles < FEWEST || quiet.in(window) > parameters.local_percentile * tiles)
+        continue;
+      around.clear();
+      for (int j = window.top; j < window.bottom; ++j)
+        for (int i = window.left; i < window.right; ++i)
+          if (const double ratio = ratios[level.at(i, j)]; ratio > 0)
+            around.push_back(ratio);
+      factors[squares.at(c, r)] = std::clamp(
+          percentile(around, parameters.local_percentile), 1.0, parameters.max_local);
+    }
+  };
+  const Bands bands(squares.rows);
+  parallelParts(bands.count, threads, [&](int band) {
+    std::vector<double> around;
+    for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
+      findRow(r, around);
+  });
+  return factors;
+}
+
+/// Pools the noise of the level below, and tells it to the planes.
+void poolNoise(const TileLevel& below, TileLevel& level, unsigned int threads)
+{
+  parallelRows(level.rows, threads, [&](int r) {
+    for (int c = 0; c < level.columns; ++c) {
+      TileSums& sums = level.sums[level.at(c, r)];
+      if (sums.n < 1)
+        continue;
+      sums.noise = 0;
+      for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
+        for (int k = 2 * c; k < std::min(2 * c + 2, below.columns); ++k)
+          sums.noise += below.sums[below.at(k, j)].noise;
+      level.planes[level.at(c, r)].noise = sums.noise / sums.n;
+    }
+  });
+}
+
+} // namespace
+
+void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
+                      const AdaptiveParameters& parameters, unsigned int threads)
+{
+  // Squares of 2x2 tiles of the base level are the tiles of the level above, if there is
+  // one.
+  TileLevel squares;
+  squares.columns = (pyramid[BASE].columns + 1) / 2;
+  squares.rows = (pyramid[BASE].rows + 1) / 2;
+  const std::vector<double> factors =
+      localFactors(pyramid[BASE], squares, noise, parameters, threads);
+  TileLevel& cells = pyramid[0];
+  parallelRows(cells.rows, threads, [&](int r) {
+    for (int c = 0; c < cells.columns; ++c) {
+      TileSums& sums = cells.sums[cells.at(c, r)];
+      if (sums.n < 1)
+        continue;
+      const double range =
+          std::sqrt(sums.x * sums.x + sums.y * sums.y + sums.z * sums.z) / sums.n;
+      const double sigma = noise.small(range) * factors[squares.at(c / 4, r / 4)];
+      sums.noise = sums.n * sigma * sigma;
+    }
+  });
+  for (std::size_t l = 1; l < pyramid.size(); ++l)
+    poolNoise(pyramid[l - 1], pyramid[l], threads);
+}
+
+} // namespace pcl_mrf_planes::adaptive
