@@ -12,18 +12,20 @@
 namespace pcl_mrf_planes {
 
 /// Calls work(part) for every part below \a parts. Parts must not depend on each other, so
-/// that the result is the same at any thread count. They are handed out in their order to
-/// the calling thread and to those of its team that are there: it never waits for one that
-/// has not begun, as where other programs have the cores. Of what work throws one is thrown
-/// again here, after all parts.
+/// that the result is the same at any thread count. They are handed out to the calling
+/// thread, from the first, and to those of its team that are there, from the last, or to all
+/// in their order: it never waits for one that has not begun, as where other programs have
+/// the cores. Of what work throws one is thrown again here, after all parts.
 template <typename Work>
-void parallelParts(int parts, unsigned int threads, const Work& work)
+void parallelParts(int parts, unsigned int threads, const Work& work,
+                   ThreadTeam::Order order = ThreadTeam::Order::ANY)
 {
   if (parts > 1 && threadCount(threads) > 1)
     if (ThreadTeam* team = ThreadTeam::ofThisThread()) {
-      team->run(parts, &work, [](const void* task, int part) {
-        (*static_cast<const Work*>(task))(part);
-      });
+      team->run(
+          parts, &work,
+          [](const void* task, int part) { (*static_cast<const Work*>(task))(part); },
+          order);
       return;
     }
   for (int part = 0; part < parts; ++part)
@@ -130,7 +132,7 @@ template <typename Work>
 void staggeredSteps(int strips, int steps, unsigned int threads, const Work& work)
 {
   StripProgress progress(strips);
-  parallelParts(strips, threads, [&](int strip) {
+  const auto takeSteps = [&](int strip) {
     try {
       for (int step = 0; step < steps; ++step) {
         if (strip > 0)
@@ -143,7 +145,8 @@ void staggeredSteps(int strips, int steps, unsigned int threads, const Work& wor
       progress.reach(strip, steps);
       throw;
     }
-  });
+  };
+  parallelParts(strips, threads, takeSteps, ThreadTeam::Order::FORWARD);
 }
 
 } // namespace pcl_mrf_planes
