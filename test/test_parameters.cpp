@@ -194,6 +194,10 @@ TEST(ParametersTest, ANoiseWithoutLimitIsForThePaperOnly)
   EXPECT_EQ(p.validate().find("noise has no limit"), 0U) << p.validate();
   p.method = Method::PAPER;
   EXPECT_EQ(p.validate(), "") << "the paper keeps every tile then";
+  p.method = Method::ADAPTIVE;
+  p.noise = {0.01, 0.0, 1e5};
+  EXPECT_EQ(p.validate().find("noise has no limit"), 0U)
+      << "far away: " << p.validate();
 }
 
 TEST(ParametersTest, ProfilesNameTheMethodAndShareTheOtherValues)
@@ -224,7 +228,8 @@ TEST(ParametersTest, NoiseMustBePositiveAndANumber)
   Parameters p;
   for (const NoiseModel& bad :
        {NoiseModel{0, 0, 0}, NoiseModel{-1, 0, 0}, NoiseModel{NOT_A_NUMBER, 0, 0},
-        NoiseModel{0, NOT_A_NUMBER, 0}, NoiseModel{0, 0, NOT_A_NUMBER}}) {
+        NoiseModel{0, NOT_A_NUMBER, 0}, NoiseModel{0, 0, NOT_A_NUMBER},
+        NoiseModel{std::numeric_limits<double>::infinity(), 1e308, -1e308}}) {
     p.noise = bad;
     EXPECT_NE(p.validate().find("noise"), std::string::npos)
         << "noise " << bad.a << " " << bad.b << " " << bad.c << " must be refused";
