@@ -160,6 +160,10 @@ Table adaptiveEntries()
        "common border over the side of the smaller part", ParameterUse::ADAPTIVE},
       {"fan_gap", &A::fan_gap, 0, LARGEST, 0, 10, "SIGMAS",
        "step across a smooth border", ParameterUse::ADAPTIVE},
+      {"fan_ring", &A::fan_ring, 0, 2, 0.5, 1.5, "SHARE",
+       "of a plane's border in such creases, both ways, that makes it curved; above 1: "
+       "off",
+       ParameterUse::ADAPTIVE},
       {"bend_angle", &A::bend_angle, 0, 720, 2, 90, "DEGREES",
        "turn of the normal that makes a region curved, if nothing else is in it",
        ParameterUse::ADAPTIVE},

@@ -143,6 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
         real("fan_share", &AdaptiveParameters::fan_share, 0, 1),
         real("fan_border", &AdaptiveParameters::fan_border, 0, 1e6),
         real("fan_gap", &AdaptiveParameters::fan_gap, 0, 1e6),
+        real("fan_ring", &AdaptiveParameters::fan_ring, 0, 2),
         real("bend_angle", &AdaptiveParameters::bend_angle, 0, 720),
         whole("support_reach", &AdaptiveParameters::support_reach, 1, 512),
         real("none_cost", &AdaptiveParameters::none_cost, 1e-6, 1e3),

@@ -47,6 +47,7 @@ const std::vector<Ablation>& ablations()
       {"every second point and row", {{"sampling", "2"}}},
       // What is no plane
       {"curved surfaces stay", {{"fan-parts", "0"}, {"bend-angle", "360"}}},
+      {"surrounded facets stay", {{"fan-ring", "2"}}},
       {"no evidence needed", {{"min-evidence", "0"}}}};
   return all;
 }

@@ -70,6 +70,10 @@ struct PCL_MRF_PLANES_EXPORT AdaptiveParameters {
   double fan_share = 0.003;
   double fan_border = 0.5; ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;    ///< step across a smooth border, sigmas, >= 0
+  /// A plane no larger than such is part of a curved surface, too, where so much of its
+  /// border lies in such creases, which turn in more than one direction; share, 0 to 2;
+  /// above 1: off
+  double fan_ring = 0.9;
   /// Turn of the normal, by a quadric, that makes a region curved, degrees, times the root
   /// of the share of the variance that the quadric explains; 720: off
   double bend_angle = 14.0;

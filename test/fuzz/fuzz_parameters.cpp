@@ -79,6 +79,7 @@ void setReal(Parameters& p, int which, double value)
                            &a.fan_share,
                            &a.fan_border,
                            &a.fan_gap,
+                           &a.fan_ring,
                            &a.bend_angle,
                            &a.none_cost,
                            &a.label_change,
