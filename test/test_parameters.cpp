@@ -126,6 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
         real("long_range", &AdaptiveParameters::long_range, 1, 1e6),
         real("flatness", &AdaptiveParameters::flatness, 0, 1e6),
         real("max_flatness", &AdaptiveParameters::max_flatness, 0, 1e6),
+        real("flatness_noise", &AdaptiveParameters::flatness_noise, 0, 1e6),
+        real("quiet_flatness", &AdaptiveParameters::quiet_flatness, 0, 1),
         real("min_sigma", &AdaptiveParameters::min_sigma, 1e-9, 1e6),
         whole("local_reach", &AdaptiveParameters::local_reach, 0, 16),
         real("local_percentile", &AdaptiveParameters::local_percentile, 0, 1),

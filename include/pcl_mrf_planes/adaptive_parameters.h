@@ -35,7 +35,10 @@ struct PCL_MRF_PLANES_EXPORT AdaptiveParameters {
   double long_range = 2.0; ///< sigma of large planes over the largest tile's, where the
                            ///< noise is correlated, >= 1
   double flatness = 0.012; ///< a plane may bend by this share of its extent, >= 0,
-  double max_flatness = 0.002; ///< but by no more than this, metres, >= 0
+  double max_flatness = 0.002;     ///< but by no more than this, metres, >= 0
+  double flatness_noise = 0.00115; ///< of the points that allow all of it, metres, >= 0
+  double quiet_flatness =
+      0.55;                ///< share of it that is left without noise, 0 to 1; 1: off
   double min_sigma = 2e-5; ///< least sigma at 1 m, growing with distance, metres, > 0
   int local_reach = 2;     ///< window of the local noise, tiles each way, 0 to 16
   double local_percentile = 0.25; ///< of the tiles' rms in that window, 0 to 1

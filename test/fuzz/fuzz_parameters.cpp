@@ -65,6 +65,8 @@ void setReal(Parameters& p, int which, double value)
                            &a.long_range,
                            &a.flatness,
                            &a.max_flatness,
+                           &a.flatness_noise,
+                           &a.quiet_flatness,
                            &a.min_sigma,
                            &a.local_percentile,
                            &a.max_local,
