@@ -100,6 +100,23 @@ TileLevel emptyCells(const OrganizedPoints& points)
   return cells;
 }
 
+/// Gives each plane the mean noise of the cells that it has.
+void spreadNoise(const TileLevel& cells, const BlockNoise& noise, TileRegions& regions)
+{
+  const int columns = (cells.columns + 1) / 2; // of blocks
+  std::vector<double> count(regions.planes.size(), 0);
+  for (int row = 0; row < cells.rows; ++row)
+    for (int column = 0; column < cells.columns; ++column)
+      if (const int region = regions.cell_region[cells.at(column, row)]; region >= 0) {
+        const auto block = static_cast<std::size_t>(row / 2 * columns + column / 2);
+        const auto k = static_cast<std::size_t>(region);
+        regions.planes[k].noise += noise.blocks[block].variance();
+        ++count[k];
+      }
+  for (std::size_t k = 0; k < count.size(); ++k)
+    regions.planes[k].noise /= std::max(count[k], 1.0);
+}
+
 /// Labels of a row, and one that no point has on either side of it.
 class LabelRow {
 public:
@@ -133,12 +150,13 @@ public:
   , noise_(result.block_noise ? result.block_noise : findBlockNoise(points, parameters))
   , label_rows_(3, LabelRow(width_))
   {
-    for (const PlaneRegion& region : result.regions) {
+    for (const PlaneRegion& region : result.regions)
       regions_.planes.push_back(fittedPlane(region));
-      scales_.push_back(labelScale(regions_.planes.back(), noise_->noise, parameters_));
-    }
     const TileLevel cells = emptyCells(points);
     regions_.cell_region = cellRegions(cells, points, labels_);
+    spreadNoise(cells, *noise_, regions_);
+    for (const FittedPlane& plane : regions_.planes)
+      scales_.push_back(labelScale(plane, noise_->noise, parameters_));
     blocks_ = findCandidates(regions_, cells, points.width, points.height, REACH);
     const std::size_t padded = static_cast<std::size_t>(blocks_.columns) * SIDE;
     per_step_.resize(padded);

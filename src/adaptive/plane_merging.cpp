@@ -2,6 +2,7 @@
 #include "adaptive/plane_merging.h"
 #include "adaptive/cell_runs.h"
 #include "adaptive/cost_queue.h"
+#include "adaptive/flatness.h"
 #include "adaptive/region_graph.h"
 #include "threads.h"
 
@@ -17,7 +18,7 @@ double allowedVariance(const FittedPlane& plane, const NoiseLaw& noise,
                        const AdaptiveParameters& p)
 {
   const double g = noise.growthOf(plane.n);
-  const double f = std::min(p.flatness * plane.extent, p.max_flatness);
+  const double f = flatnessOf(plane, p);
   return g * g * plane.noise * incidenceFactor(plane) + f * f;
 }
 
