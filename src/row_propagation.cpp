@@ -2,6 +2,7 @@
 #include <pcl_mrf_planes/row_propagation.h>
 
 #include "belief_propagation_kernel.h"
+#include "label_decision_kernel.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -37,8 +38,9 @@ void beliefGapRow(const SiteRow& row, std::uint16_t* best, std::uint16_t* gap)
 /// Sweeps one band of the image.
 class BandSweep {
 public:
-  /// Labels for rows \a first to \a last - 1.
-  BandSweep(const FieldRows& field, int iterations, int first, int last)
+  /// Results for rows \a first to \a last - 1: labels, or also gaps, for which all
+  /// messages are needed.
+  BandSweep(const FieldRows& field, int iterations, int first, int last, bool gaps)
   : field_(field)
   , layout_(field.layout())
   , labels_(field.prices().labels())
@@ -47,9 +49,12 @@ public:
   , last_(last)
   , top_(std::max(0, first - iterations))
   , bottom_(std::min(layout_.height, last + iterations))
-  , ring_(std::min(iterations + 2, bottom_ - top_))
+  , sent_(decides(field, iterations, gaps) ? iterations - 1 : iterations)
+  , ring_(std::min(iterations + 3, bottom_ - top_))
   , least_pairwise_(field.prices().leastPairwise())
+  , cheapest_(cheapestPairs(field.prices()))
   , scratch_(labels_, layout_.stride)
+  , decision_scratch_(labels_, layout_.stride)
   {
     for (int colour = 0; colour < 2; ++colour) {
       data_[colour].assign(layout_.bufferSize(ring_, labels_), 0);
@@ -71,7 +76,7 @@ public:
         clearMessages(step);
       if (step - 1 < bottom_)
         field_.fillRow(step - 1, fieldRow(step - 1));
-      for (int t = 1; t <= iterations_; ++t) {
+      for (int t = 1; t <= sent_; ++t) {
         const int y = step - t;
         if (y >= top_ && y < bottom_)
           send((t - 1) & 1, y);
@@ -85,8 +90,13 @@ public:
   /// Writes the labels of a row into the image \a out.
   void label(int y, std::vector<std::uint16_t>& out)
   {
-    for (int colour = 0; colour < 2; ++colour)
-      mapSites(siteRow(colour, y), layout_.width, colour, y, scratch_, out);
+    for (int colour = 0; colour < 2; ++colour) {
+      if (sent_ < iterations_ && colour == (iterations_ & 1))
+        decideSites(undecidedRow(colour, y), layout_.width, colour, y,
+                    decision_scratch_, out);
+      else
+        mapSites(siteRow(colour, y), layout_.width, colour, y, scratch_, out);
+    }
   }
 
   /// Writes the gaps between the beliefs of a row into the image \a out.
@@ -106,6 +116,13 @@ public:
   }
 
 private:
+  /// Whether labels are decided without the last messages.
+  static bool decides(const FieldRows& field, int iterations, bool gaps)
+  {
+    return iterations > 0 && !gaps &&
+           field.prices().edgeModel() == EdgeModel::SOFT_THRESHOLD;
+  }
+
   int slot(int y) const { return (y - top_) % ring_; }
 
   FieldRow fieldRow(int y)
@@ -142,6 +159,28 @@ private:
     return row;
   }
 
+  UndecidedRow undecidedRow(int colour, int y)
+  {
+    const int other = 1 - colour;
+    const FieldRow here = fieldRow(y);
+    UndecidedRow undecided;
+    undecided.row = siteRow(colour, y);
+    undecided.cheapest = cheapest_.data();
+    undecided.neighbour[LEFT] = undecided.neighbour[RIGHT] = siteRow(other, y);
+    undecided.weight[LEFT] = here.right[other];
+    undecided.weight[RIGHT] = here.right[colour];
+    if (y > top_) {
+      undecided.neighbour[ABOVE] = siteRow(other, y - 1);
+      undecided.weight[ABOVE] = fieldRow(y - 1).down[other];
+    }
+    if (y + 1 < bottom_) {
+      undecided.neighbour[BELOW] = siteRow(other, y + 1);
+      undecided.weight[BELOW] = here.down[colour];
+    }
+    alignToReceivers(undecided, colour, y);
+    return undecided;
+  }
+
   void send(int colour, int y)
   {
     const int other = 1 - colour;
@@ -169,9 +208,12 @@ private:
   int iterations_;
   int first_, last_; // rows to label
   int top_, bottom_; // rows to work on
+  int sent_;         // iterations whose messages are sent
   int ring_;         // rows in memory
   std::uint16_t least_pairwise_;
+  std::vector<std::uint16_t> cheapest_;
   KernelScratch scratch_;
+  DecisionScratch decision_scratch_;
   std::vector<std::uint16_t> gaps_;
   std::vector<std::uint16_t> data_[2];
   std::vector<std::uint16_t> right_[2];
@@ -182,7 +224,7 @@ private:
 /// Sweeps the image in bands; finish(sweep, y, image) writes a row.
 template <typename Finish>
 std::vector<std::uint16_t> sweep(const FieldRows& field, int iterations,
-                                 unsigned int threads, const Finish& finish)
+                                 unsigned int threads, bool gaps, const Finish& finish)
 {
   const int width = field.layout().width;
   const int height = field.layout().height;
@@ -196,7 +238,7 @@ std::vector<std::uint16_t> sweep(const FieldRows& field, int iterations,
     const auto start = [&](int b) {
       return static_cast<int>(static_cast<long long>(height) * b / bands);
     };
-    BandSweep rows(field, iterations, start(band), start(band + 1));
+    BandSweep rows(field, iterations, start(band), start(band + 1), gaps);
     rows.run([&](int y) { finish(rows, y, image); });
   });
   return image;
@@ -207,7 +249,7 @@ std::vector<std::uint16_t> sweep(const FieldRows& field, int iterations,
 std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
                                          unsigned int threads)
 {
-  return sweep(field, iterations, threads,
+  return sweep(field, iterations, threads, false,
                [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
                  rows.label(y, image);
                });
@@ -216,7 +258,7 @@ std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
 std::vector<std::uint16_t> propagateRowGaps(const FieldRows& field, int iterations,
                                             unsigned int threads)
 {
-  return sweep(field, iterations, threads,
+  return sweep(field, iterations, threads, true,
                [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
                  rows.gap(y, image);
                });
