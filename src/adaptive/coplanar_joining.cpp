@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_graph.h"
+#include "frame_memory.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -32,7 +33,7 @@ public:
   : starts_(regions.planes.size() + 1, 0)
   {
     // Counting sort; where a region is to start is where it ends once it is filled.
-    std::vector<std::size_t> filled(starts_);
+    FrameVector<std::size_t> filled(starts_);
     for (const int id : regions.cell_region)
       if (id >= 0)
         ++filled[static_cast<std::size_t>(id)];
@@ -54,8 +55,8 @@ public:
   }
 
 private:
-  std::vector<std::size_t> starts_;
-  std::vector<Cell> cells_;
+  FrameVector<std::size_t> starts_;
+  FrameVector<Cell> cells_;
 };
 
 /// What lies between two regions of the image.
@@ -185,7 +186,7 @@ private:
   int side_;
   const AdaptiveParameters& parameters_;
   RegionCells members_;
-  std::vector<Box> boxes_;
+  FrameVector<Box> boxes_;
 };
 
 } // namespace
@@ -207,7 +208,7 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
     return dissimilarity(regions.plane(a), regions.plane(b), joint, noise, parameters);
   };
 
-  std::vector<Candidate> pairs;
+  FrameVector<Candidate> pairs;
   for (int a = 0; a < regions.size(); ++a)
     for (int b = a + 1; b < regions.size(); ++b) {
       if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||

@@ -2,12 +2,14 @@
 #include "adaptive/curved_surfaces.h"
 #include "adaptive/plane_evidence.h"
 #include "adaptive/surface_bend.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <boost/container/flat_map.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -25,7 +27,9 @@ struct Border {
 };
 
 /// Borders by the regions on either side, the smaller number first.
-using Borders = boost::container::flat_map<std::pair<int, int>, Border>;
+using Borders =
+    boost::container::flat_map<std::pair<int, int>, Border, std::less<>,
+                               FrameAllocator<std::pair<std::pair<int, int>, Border>>>;
 
 /// Looks across every change of label, at points so far apart that the smoothing of edges by
 /// the sensor does not count.
@@ -76,7 +80,7 @@ public:
   Borders borders;
   /// Border points of each region beyond which the surface goes on in a shallow crease, but
   /// is on no plane.
-  std::vector<int> goes_on;
+  FrameVector<int> goes_on;
 
 private:
   static constexpr std::size_t REACH = 3;
@@ -142,11 +146,11 @@ bool isFold(const FittedPlane& a, const FittedPlane& b, const Border& border,
 }
 
 /// Number of regions in the row of folds that each region belongs to.
-std::vector<int> fanSizes(const Borders& borders, const FittedRegions& regions,
+FrameVector<int> fanSizes(const Borders& borders, const FittedRegions& regions,
                           double largest, const NoiseLaw& noise,
                           const AdaptiveParameters& parameters)
 {
-  std::vector<std::size_t> parent(regions.planes.size());
+  FrameVector<std::size_t> parent(regions.planes.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto find = [&](std::size_t k) {
     while (parent[k] != k)
@@ -160,10 +164,10 @@ std::vector<int> fanSizes(const Borders& borders, const FittedRegions& regions,
                parameters))
       parent[std::max(find(a), find(b))] = std::min(find(a), find(b));
   }
-  std::vector<int> members(parent.size(), 0);
+  FrameVector<int> members(parent.size(), 0);
   for (std::size_t k = 0; k < parent.size(); ++k)
     ++members[find(k)];
-  std::vector<int> sizes(parent.size());
+  FrameVector<int> sizes(parent.size());
   for (std::size_t k = 0; k < parent.size(); ++k)
     sizes[k] = members[find(k)];
   return sizes;
@@ -237,10 +241,10 @@ private:
   const FittedRegions& regions_;
   static constexpr double WIDE = 3.0; ///< points of a larger facet over those of one
   double largest_;                    ///< points of a facet
-  std::vector<Bend> bends_;
-  std::vector<int> fan_;
-  std::vector<int> wide_fan_;
-  std::vector<int> goes_on_;
+  FrameVector<Bend> bends_;
+  FrameVector<int> fan_;
+  FrameVector<int> wide_fan_;
+  FrameVector<int> goes_on_;
 };
 
 } // namespace
@@ -250,7 +254,7 @@ void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
                         LabelledPoints& image, unsigned int threads)
 {
   const CurvedSurfaces curved(points, image, noise, parameters, regions, threads);
-  std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
+  FrameVector<std::uint16_t> id(regions.planes.size() + 1, 0);
   FittedRegions kept;
   for (std::size_t k = 0; k < regions.planes.size(); ++k)
     if (!curved.has(k) && isEvident(regions.planes[k], parameters)) {
