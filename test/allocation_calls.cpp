@@ -1,93 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The functions of the C library for the whole program, replaced by some that count and call
-// them.
+// operator new and delete of the whole program, replaced by some that count.
 #include "allocation_calls.h"
 
-#include <dlfcn.h>
-
+#include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <cstdlib>
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define PCL_MRF_PLANES_OTHER_ALLOCATOR
-#endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PCL_MRF_PLANES_OTHER_ALLOCATOR
-#endif
-
-#ifdef PCL_MRF_PLANES_OTHER_ALLOCATOR
-
-namespace pcl_mrf_planes::test {
-
-bool countsAllocations()
-{
-  return false;
-}
-
-std::size_t allocationCalls()
-{
-  return 0;
-}
-
-} // namespace pcl_mrf_planes::test
-
-#else
+#include <new>
 
 namespace {
 
 std::atomic<std::size_t> calls{0};
 
-/// The function of that name which this program would have had.
-template <typename Function>
-Function* original(const char* name)
+void* newMemory(std::size_t size, std::size_t alignment)
 {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+  calls.fetch_add(1, std::memory_order_relaxed);
+  const std::size_t rounded =
+      (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment;
+  void* const memory = alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__
+                           ? std::malloc(rounded)
+                           : std::aligned_alloc(alignment, rounded);
+  if (memory == nullptr)
+    throw std::bad_alloc();
+  return memory;
 }
 
 } // namespace
 
-extern "C" {
-
-void* malloc(std::size_t size)
+// The forms that are not here call one of these.
+void* operator new(std::size_t size)
 {
-  static auto* const call = original<void*(std::size_t)>("malloc");
-  calls.fetch_add(1, std::memory_order_relaxed);
-  return call(size);
+  return newMemory(size, 1);
 }
-
-void* realloc(void* memory, std::size_t size)
+void* operator new(std::size_t size, std::align_val_t alignment)
 {
-  static auto* const call = original<void*(void*, std::size_t)>("realloc");
-  calls.fetch_add(1, std::memory_order_relaxed);
-  return call(memory, size);
+  return newMemory(size, static_cast<std::size_t>(alignment));
 }
-
-void* aligned_alloc(std::size_t alignment, std::size_t size)
+void operator delete(void* memory) noexcept
 {
-  static auto* const call =
-      original<void*(std::size_t, std::size_t)>("aligned_alloc");
-  calls.fetch_add(1, std::memory_order_relaxed);
-  return call(alignment, size);
+  std::free(memory);
 }
-
-int posix_memalign(void** memory, std::size_t alignment, std::size_t size)
+void operator delete(void* memory, std::size_t) noexcept
 {
-  static auto* const call =
-      original<int(void**, std::size_t, std::size_t)>("posix_memalign");
-  calls.fetch_add(1, std::memory_order_relaxed);
-  return call(memory, alignment, size);
+  std::free(memory);
 }
+void operator delete(void* memory, std::align_val_t) noexcept
+{
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+{
+  std::free(memory);
 }
 
 namespace pcl_mrf_planes::test {
-
-bool countsAllocations()
-{
-  return true;
-}
 
 std::size_t allocationCalls()
 {
@@ -95,5 +61,3 @@ std::size_t allocationCalls()
 }
 
 } // namespace pcl_mrf_planes::test
-
-#endif

@@ -164,8 +164,8 @@ Labelling labelSampled(const OrganizedPoints& points, int every,
 void keepNoise(const NoiseLaw& noise, const TileLevel& blocks,
                std::shared_ptr<const BlockNoise>& kept)
 {
-  std::shared_ptr<BlockNoise> own =
-      std::const_pointer_cast<BlockNoise>(std::move(kept));
+  std::shared_ptr<BlockNoise> own = std::const_pointer_cast<BlockNoise>(kept);
+  kept.reset();
   if (own.use_count() == 1)
     std::atomic_thread_fence(std::memory_order_acquire); // all others are done with it
   else
