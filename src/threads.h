@@ -13,12 +13,13 @@
 namespace pcl_mrf_planes {
 
 /// Calls work(part) for every part below \a parts. Parts must not depend on each other, so
-/// that the result is the same at any thread count. They are handed out in their order to
-/// the calling thread and to those of its team that are there: it never waits for one that
-/// has not begun, as where other programs have the cores. Of what work throws one is thrown
-/// again here, after all parts.
+/// that the result is the same at any thread count. They are handed out to the calling
+/// thread, from the first, and to those of its team that are there, from the last, or to all
+/// in their order: it never waits for one that has not begun, as where other programs have
+/// the cores. Of what work throws one is thrown again here, after all parts.
 template <typename Work>
-void parallelParts(int parts, unsigned int threads, const Work& work)
+void parallelParts(int parts, unsigned int threads, const Work& work,
+                   ThreadTeam::Order order = ThreadTeam::Order::ANY)
 {
   if (parts > 1 && threadCount(threads) > 1)
     if (ThreadTeam* team = ThreadTeam::ofThisThread()) {
@@ -26,11 +27,14 @@ void parallelParts(int parts, unsigned int threads, const Work& work)
         const Work& work;
         FrameMemory* memory; ///< of the caller, for those of its team as well
       } task = {work, FrameMemory::ofThisThread()};
-      team->run(parts, &task, [](const void* what, int part) {
-        const Task& all = *static_cast<const Task*>(what);
-        const FrameMemoryScope scope(all.memory);
-        all.work(part);
-      });
+      team->run(
+          parts, &task,
+          [](const void* what, int part) {
+            const Task& all = *static_cast<const Task*>(what);
+            const FrameMemoryScope scope(all.memory);
+            all.work(part);
+          },
+          order);
       return;
     }
   for (int part = 0; part < parts; ++part)
@@ -137,7 +141,7 @@ template <typename Work>
 void staggeredSteps(int strips, int steps, unsigned int threads, const Work& work)
 {
   StripProgress progress(strips);
-  parallelParts(strips, threads, [&](int strip) {
+  const auto takeSteps = [&](int strip) {
     try {
       for (int step = 0; step < steps; ++step) {
         if (strip > 0)
@@ -150,7 +154,8 @@ void staggeredSteps(int strips, int steps, unsigned int threads, const Work& wor
       progress.reach(strip, steps);
       throw;
     }
-  });
+  };
+  parallelParts(strips, threads, takeSteps, ThreadTeam::Order::FORWARD);
 }
 
 } // namespace pcl_mrf_planes

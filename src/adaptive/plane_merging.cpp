@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/plane_merging.h"
+#include "adaptive/cell_runs.h"
 #include "adaptive/cost_queue.h"
 #include "adaptive/region_graph.h"
 #include "frame_memory.h"
@@ -30,22 +31,40 @@ bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
 
 namespace {
 
-/// Tiles that lie side by side in some rows of cells.
+void linkTiles(int a, int b, Regions& regions)
+{
+  if (a >= 0 && b >= 0 && a != b)
+    regions.touch(a, b);
+}
+
+/// Tiles that lie side by side in some rows of cells, in the order of the cells: each one
+/// touches what lies to its right, then what lies below.
 void linkInside(const FrameVector<int>& cell_region, const TileLevel& cells,
                 TileRows rows, Regions& regions)
 {
-  const auto touch = [&](int a, int b) {
-    if (a >= 0 && b >= 0 && a != b)
-      regions.touch(a, b);
-  };
-  for (int r = rows.begin; r < rows.end; ++r)
-    for (int c = 0; c < cells.columns; ++c) {
-      const int a = cell_region[cells.at(c, r)];
-      if (c + 1 < cells.columns)
-        touch(a, cell_region[cells.at(c + 1, r)]);
-      if (r + 1 < rows.end)
-        touch(a, cell_region[cells.at(c, r + 1)]);
+  const CellRuns runs(cell_region, cells, rows);
+  for (int r = rows.begin; r < rows.end; ++r) {
+    const bool last = r + 1 == rows.end;
+    const CellRun* below = last ? nullptr : runs.begin(r + 1);
+    for (const CellRun* run = runs.begin(r); run != runs.end(r); ++run) {
+      const int right = run + 1 != runs.end(r) ? run[1].region : -1;
+      if (last) {
+        linkTiles(run->region, right, regions);
+        continue;
+      }
+      for (; below->end < run->end; ++below)
+        linkTiles(run->region, below->region, regions);
+      // It lies below the last cell only.
+      const bool alone = std::max(below->begin, run->begin) == run->end - 1;
+      if (!alone)
+        linkTiles(run->region, below->region, regions);
+      linkTiles(run->region, right, regions);
+      if (alone)
+        linkTiles(run->region, below->region, regions);
+      if (below->end == run->end)
+        ++below;
     }
+  }
 }
 
 /// Regions on either side of the border above a row of cells.
@@ -89,6 +108,7 @@ public:
   , threads_(threads)
   , limit_(parameters.merge_tolerance * parameters.merge_tolerance)
   , queue_(static_cast<float>(limit_))
+  , offered_(static_cast<std::size_t>(regions.size()), 0)
   {
     pairs_.reserve(PAIRS * tiles_.size());
     joint_.reserve(PAIRS * tiles_.size());
@@ -128,16 +148,19 @@ private:
     float cost;
   };
 
-  /// Offers all pairs of neighbours, as if one after the other.
+  /// Offers all pairs of neighbours, as if one after the other, but for those that neither
+  /// has grown since they were found too different.
   void offerAll()
   {
     pairs_.clear();
     for (const int a : tiles_)
       if (regions_.find(a) == a)
         regions_.forEachNeighbour(a, ++mark_, [&](int b) {
-          if (a < b)
+          if (a < b && (grew(a) || grew(b)))
             pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
         });
+    for (const int a : tiles_)
+      offered_[static_cast<std::size_t>(a)] = regions_.tiles(a);
     joint_.resize(pairs_.size());
     const auto batches = static_cast<int>((pairs_.size() + AT_ONCE - 1) / AT_ONCE);
     parallelParts(batches, threads_, [&](int batch) {
@@ -170,6 +193,11 @@ private:
         consider();
     }
     return false;
+  }
+
+  bool grew(int region) const
+  {
+    return offered_[static_cast<std::size_t>(region)] != regions_.tiles(region);
   }
 
   void offer(int a, int b)
@@ -220,6 +248,7 @@ private:
   unsigned int threads_;
   double limit_;
   CostQueue queue_;
+  FrameVector<int> offered_;       ///< tiles of each region when it was last offered
   FrameVector<Pair> pairs_;        ///< in the order in which they were offered
   FrameVector<FittedPlane> joint_; ///< plane of both
   std::size_t looked_at_ = 0;      ///< so many pairs, the first
