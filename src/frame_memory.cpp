@@ -78,6 +78,11 @@ void FrameMemory::give(void* block, std::size_t bytes) noexcept
   spare_[size.number] = new (block) Spare{spare_[size.number]};
 }
 
+bool FrameMemory::keeps() noexcept
+{
+  return !WATCHED;
+}
+
 FrameMemory* FrameMemory::ofThisThread() noexcept
 {
   return memory_of_this_thread;

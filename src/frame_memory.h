@@ -35,6 +35,9 @@ public:
   /// \param[in] bytes as many as the block was taken for
   void give(void* block, std::size_t bytes) noexcept;
 
+  /// Whether what is given back is kept at all.
+  static bool keeps() noexcept;
+
   /// What is put up for the calling thread; null: nothing.
   static FrameMemory* ofThisThread() noexcept;
 
