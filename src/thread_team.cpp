@@ -240,7 +240,7 @@ ThreadTeam* ThreadTeam::ofThisThread()
 }
 
 ThreadScope::ThreadScope(unsigned int threads)
-: team_(std::make_unique<ThreadTeam>(threads))
+: team_(threads == 1 ? nullptr : std::make_unique<ThreadTeam>(threads))
 {}
 
 ThreadScope::~ThreadScope() = default;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "frame_memory.h"
 #include "thread_team.h"
 
 #include <algorithm>
@@ -22,9 +23,17 @@ void parallelParts(int parts, unsigned int threads, const Work& work,
 {
   if (parts > 1 && threadCount(threads) > 1)
     if (ThreadTeam* team = ThreadTeam::ofThisThread()) {
+      const struct Task {
+        const Work& work;
+        FrameMemory* memory; ///< of the caller, for those of its team as well
+      } task = {work, FrameMemory::ofThisThread()};
       team->run(
-          parts, &work,
-          [](const void* task, int part) { (*static_cast<const Work*>(task))(part); },
+          parts, &task,
+          [](const void* what, int part) {
+            const Task& all = *static_cast<const Task*>(what);
+            const FrameMemoryScope scope(all.memory);
+            all.work(part);
+          },
           order);
       return;
     }
@@ -69,7 +78,7 @@ void addTo(Sum& sum, const Sum& part)
   sum += part;
 }
 template <typename Sum>
-void addTo(std::vector<Sum>& sums, const std::vector<Sum>& parts)
+void addTo(FrameVector<Sum>& sums, const FrameVector<Sum>& parts)
 {
   for (std::size_t k = 0; k < sums.size(); ++k)
     addTo(sums[k], parts[k]);
@@ -83,7 +92,7 @@ Sum sumOfBands(int rows, unsigned int threads, const Sum& none, const Add& add)
   constexpr int FEW =
       4; // each has a sum of its own, of as many numbers as there are labels
   const Bands bands(rows, FEW);
-  std::vector<Sum> sums(static_cast<std::size_t>(bands.count), none);
+  FrameVector<Sum> sums(static_cast<std::size_t>(bands.count), none);
   parallelParts(bands.count, threads, [&](int band) {
     add(bands.begin(band), bands.begin(band + 1), sums[static_cast<std::size_t>(band)]);
   });
@@ -122,7 +131,7 @@ private:
     return done_[static_cast<std::size_t>(strip)].steps;
   }
 
-  std::vector<Counter> done_;
+  FrameVector<Counter> done_;
 };
 
 /// Calls work(strip, step) for every step of every strip, as if step by step and in each of

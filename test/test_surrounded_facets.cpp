@@ -173,7 +173,7 @@ std::vector<bool> surroundedBy(const std::vector<Eigen::Vector3d>& normals,
 {
   FittedRegions regions;
   RegionBorders borders;
-  std::vector<Fold> folds;
+  FrameVector<Fold> folds;
   const auto add = [&](const Eigen::Vector3d& normal) {
     FittedPlane plane;
     plane.normal = normal.normalized();
@@ -189,7 +189,9 @@ std::vector<bool> surroundedBy(const std::vector<Eigen::Vector3d>& normals,
   }
   borders.open[0] = open;
   borders.goes_on[0] = goes_on;
-  return findSurroundedFacets(regions, borders, folds, least_share);
+  const FrameVector<bool> found =
+      findSurroundedFacets(regions, borders, folds, least_share);
+  return {found.begin(), found.end()};
 }
 
 TEST(SurroundedFacetsTest, CountsTheShareOfTheBorderThatGoesOn)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adaptive/tile_pyramid.h"
+#include "frame_memory.h"
 
 #include <cstddef>
 #include <vector>
@@ -19,7 +20,7 @@ struct CellRun {
 class CellRuns {
 public:
   /// O(cells of the rows)
-  CellRuns(const std::vector<int>& cell_region, const TileLevel& cells, TileRows rows)
+  CellRuns(const FrameVector<int>& cell_region, const TileLevel& cells, TileRows rows)
   : first_(rows.begin)
   {
     starts_.reserve(static_cast<std::size_t>(rows.end - rows.begin) + 1);
@@ -47,11 +48,14 @@ private:
       runs_.push_back({begin, columns, region[begin]});
   }
 
-  std::size_t start(int r) const { return starts_[static_cast<std::size_t>(r - first_)]; }
+  std::size_t start(int r) const
+  {
+    return starts_[static_cast<std::size_t>(r - first_)];
+  }
 
   int first_; ///< row
-  std::vector<std::size_t> starts_;
-  std::vector<CellRun> runs_;
+  FrameVector<std::size_t> starts_;
+  FrameVector<CellRun> runs_;
 };
 
 } // namespace pcl_mrf_planes::adaptive

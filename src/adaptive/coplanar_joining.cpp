@@ -2,6 +2,7 @@
 #include "adaptive/cell_runs.h"
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_graph.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ public:
             visit(static_cast<std::size_t>(run->region), *run, r);
     };
     // Counting sort; where a region is to start is where it ends once it is filled.
-    std::vector<std::size_t> filled(starts_);
+    FrameVector<std::size_t> filled(starts_);
     forEachRun([&](std::size_t k, const CellRun& run, int) {
       ++filled[k];
       cells_[k] += run.end - run.begin;
@@ -69,9 +70,9 @@ public:
   }
 
 private:
-  std::vector<std::size_t> starts_;
-  std::vector<int> cells_; ///< number of each region's
-  std::vector<Span> spans_;
+  FrameVector<std::size_t> starts_;
+  FrameVector<int> cells_; ///< number of each region's
+  FrameVector<Span> spans_;
 };
 
 /// What lies between two regions of the image.
@@ -140,8 +141,7 @@ private:
     constexpr int FAR = 1 << 14; // cells
     Box box = {{FAR, FAR}, {-FAR, -FAR}};
     for (const Span& span : spans) {
-      box.low = {std::min(box.low.column, span.begin),
-                 std::min(box.low.row, span.row)};
+      box.low = {std::min(box.low.column, span.begin), std::min(box.low.row, span.row)};
       box.high = {std::max(box.high.column, span.end - 1),
                   std::max(box.high.row, span.row)};
     }
@@ -211,7 +211,7 @@ private:
   int side_;
   const AdaptiveParameters& parameters_;
   RegionCells members_;
-  std::vector<Box> boxes_;
+  FrameVector<Box> boxes_;
 };
 
 } // namespace
@@ -233,7 +233,7 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
     return dissimilarity(regions.plane(a), regions.plane(b), joint, noise, parameters);
   };
 
-  std::vector<Candidate> pairs;
+  FrameVector<Candidate> pairs;
   for (int a = 0; a < regions.size(); ++a)
     for (int b = a + 1; b < regions.size(); ++b) {
       if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||

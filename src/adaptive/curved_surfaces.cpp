@@ -4,9 +4,11 @@
 #include "adaptive/region_borders.h"
 #include "adaptive/surface_bend.h"
 #include "adaptive/surrounded_facets.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -36,11 +38,11 @@ bool isFold(const FittedPlane& a, const FittedPlane& b, const Border& border,
 }
 
 /// The folds between regions of at most so many points.
-std::vector<Fold> findFolds(const RegionBorders& borders, const FittedRegions& regions,
+FrameVector<Fold> findFolds(const RegionBorders& borders, const FittedRegions& regions,
                             double largest, const NoiseLaw& noise,
                             const AdaptiveParameters& parameters)
 {
-  std::vector<Fold> folds;
+  FrameVector<Fold> folds;
   for (const auto& [pair, border] : borders.between) {
     const auto a = static_cast<std::size_t>(pair.first);
     const auto b = static_cast<std::size_t>(pair.second);
@@ -53,10 +55,10 @@ std::vector<Fold> findFolds(const RegionBorders& borders, const FittedRegions& r
 
 /// Number of regions in the row of folds that each region belongs to.
 /// \param[in] largest regions of more points are in none
-std::vector<int> fanSizes(const std::vector<Fold>& folds, const FittedRegions& regions,
+FrameVector<int> fanSizes(const FrameVector<Fold>& folds, const FittedRegions& regions,
                           double largest)
 {
-  std::vector<std::size_t> parent(regions.planes.size());
+  FrameVector<std::size_t> parent(regions.planes.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto find = [&](std::size_t k) {
     while (parent[k] != k)
@@ -68,10 +70,10 @@ std::vector<int> fanSizes(const std::vector<Fold>& folds, const FittedRegions& r
       const std::size_t a = find(fold.a), b = find(fold.b);
       parent[std::max(a, b)] = std::min(a, b);
     }
-  std::vector<int> members(parent.size(), 0);
+  FrameVector<int> members(parent.size(), 0);
   for (std::size_t k = 0; k < parent.size(); ++k)
     ++members[find(k)];
-  std::vector<int> sizes(parent.size());
+  FrameVector<int> sizes(parent.size());
   for (std::size_t k = 0; k < parent.size(); ++k)
     sizes[k] = members[find(k)];
   return sizes;
@@ -96,7 +98,7 @@ public:
   {
     const RegionBorders borders =
         findBorders(points, regions, image, parameters.fan_angle * DEGREE, threads);
-    const std::vector<Fold> folds =
+    const FrameVector<Fold> folds =
         findFolds(borders, regions, WIDE * largest_, noise, parameters);
     fan_ = fanSizes(folds, regions, largest_);
     wide_fan_ = fanSizes(folds, regions, WIDE * largest_);
@@ -145,11 +147,11 @@ private:
   const FittedRegions& regions_;
   static constexpr double WIDE = 3.0; ///< points of a larger facet over those of one
   double largest_;                    ///< points of a facet
-  std::vector<Bend> bends_;
-  std::vector<int> fan_;
-  std::vector<int> wide_fan_;
-  std::vector<bool> surrounded_;
-  std::vector<int> goes_on_;
+  FrameVector<Bend> bends_;
+  FrameVector<int> fan_;
+  FrameVector<int> wide_fan_;
+  FrameVector<bool> surrounded_;
+  FrameVector<int> goes_on_;
 };
 
 } // namespace
@@ -159,7 +161,7 @@ void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
                         LabelledPoints& image, unsigned int threads)
 {
   const CurvedSurfaces curved(points, image, noise, parameters, regions, threads);
-  std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
+  FrameVector<std::uint16_t> id(regions.planes.size() + 1, 0);
   FittedRegions kept;
   for (std::size_t k = 0; k < regions.planes.size(); ++k)
     if (!curved.has(k) && isEvident(regions.planes[k], parameters)) {

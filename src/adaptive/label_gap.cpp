@@ -10,6 +10,7 @@
 #include "adaptive/noise_estimation.h"
 #include "adaptive/plane_evidence.h"
 #include "adaptive/tile_pyramid.h"
+#include "frame_memory.h"
 
 #include <Eigen/Dense>
 
@@ -58,10 +59,10 @@ int firstRegion(const std::uint16_t* labels, std::size_t width, std::size_t colu
 }
 
 /// That of each cell: enough to say what is near.
-std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& points,
+FrameVector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& points,
                              const std::vector<std::uint16_t>& labels)
 {
-  std::vector<int> regions;
+  FrameVector<int> regions;
   regions.reserve(cells.at(0, cells.rows));
   const auto width = static_cast<std::size_t>(points.width);
   const auto height = static_cast<std::size_t>(points.height);
@@ -87,7 +88,9 @@ std::shared_ptr<const BlockNoise> findBlockNoise(const OrganizedPoints& points,
                              ? estimateNoise(pyramid, adaptive)
                              : statedNoise(parameters.noise, pyramid, adaptive);
   assignLocalNoise(pyramid, noise, adaptive);
-  return std::make_shared<const BlockNoise>(noise, pyramid[BLOCK_LEVEL]);
+  const auto found = std::make_shared<BlockNoise>();
+  found->assign(noise, pyramid[BLOCK_LEVEL]);
+  return found;
 }
 
 /// The cells of an image, without sums.
@@ -271,7 +274,7 @@ private:
   std::size_t width_;
   std::shared_ptr<const BlockNoise> noise_;
   TileRegions regions_;
-  std::vector<LabelScale> scales_;
+  FrameVector<LabelScale> scales_;
   CandidateBlocks blocks_;
   // of the row of blocks, and the row of points, at hand; as wide as whole blocks
   std::vector<float> per_step_;

@@ -4,6 +4,7 @@
 #include "adaptive/cost_queue.h"
 #include "adaptive/flatness.h"
 #include "adaptive/region_graph.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ void linkTiles(int a, int b, Regions& regions)
 
 /// Tiles that lie side by side in some rows of cells, in the order of the cells: each one
 /// touches what lies to its right, then what lies below.
-void linkInside(const std::vector<int>& cell_region, const TileLevel& cells,
+void linkInside(const FrameVector<int>& cell_region, const TileLevel& cells,
                 TileRows rows, Regions& regions)
 {
   const CellRuns runs(cell_region, cells, rows);
@@ -68,7 +69,7 @@ void linkInside(const std::vector<int>& cell_region, const TileLevel& cells,
 }
 
 /// Regions on either side of the border above a row of cells.
-void linkAcross(const std::vector<int>& cell_region, const TileLevel& cells, int row,
+void linkAcross(const FrameVector<int>& cell_region, const TileLevel& cells, int row,
                 Regions& regions)
 {
   for (int c = 0; c < cells.columns; ++c) {
@@ -80,14 +81,14 @@ void linkAcross(const std::vector<int>& cell_region, const TileLevel& cells, int
 }
 
 /// The tiles of some rows of cells, in the order of their numbers.
-std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& cells,
+FrameVector<int> tilesIn(const FrameVector<int>& cell_region, const TileLevel& cells,
                          TileRows rows, std::size_t tiles)
 {
-  std::vector<std::uint8_t> is_in(tiles, 0);
+  FrameVector<std::uint8_t> is_in(tiles, 0);
   for (std::size_t cell = cells.at(0, rows.begin); cell < cells.at(0, rows.end); ++cell)
     if (cell_region[cell] >= 0)
       is_in[static_cast<std::size_t>(cell_region[cell])] = 1;
-  std::vector<int> found;
+  FrameVector<int> found;
   found.reserve(tiles);
   for (std::size_t tile = 0; tile < tiles; ++tile)
     if (is_in[tile] != 0)
@@ -99,7 +100,7 @@ std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& c
 class Agglomeration {
 public:
   /// \param[in] tiles none but these have neighbours
-  Agglomeration(Regions& regions, std::vector<int> tiles, const NoiseLaw& noise,
+  Agglomeration(Regions& regions, FrameVector<int> tiles, const NoiseLaw& noise,
                 const AdaptiveParameters& parameters, unsigned int threads)
   : regions_(regions)
   , tiles_(std::move(tiles))
@@ -241,16 +242,16 @@ private:
   }
 
   Regions& regions_;
-  std::vector<int> tiles_;
+  FrameVector<int> tiles_;
   int mark_ = 0; ///< of the last walk through neighbours
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
   unsigned int threads_;
   double limit_;
   CostQueue queue_;
-  std::vector<int> offered_;       ///< tiles of each region when it was last offered
-  std::vector<Pair> pairs_;        ///< in the order in which they were offered
-  std::vector<FittedPlane> joint_; ///< plane of both
+  FrameVector<int> offered_;       ///< tiles of each region when it was last offered
+  FrameVector<Pair> pairs_;        ///< in the order in which they were offered
+  FrameVector<FittedPlane> joint_; ///< plane of both
   std::size_t looked_at_ = 0;      ///< so many pairs, the first
 };
 
@@ -262,7 +263,7 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
 {
   const TileLevel& cells = pyramid[0];
   const std::size_t count = tiles.planes.size();
-  std::vector<int> cell_region = std::move(tiles.cell_region);
+  FrameVector<int> cell_region = std::move(tiles.cell_region);
   Regions regions(std::move(tiles));
   // Between the halves of the image nothing merges before each of them is done.
   const Bands halves(pyramid.back().rows, 2);
@@ -272,7 +273,7 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
   };
   for (int half = 0; half < halves.count; ++half)
     linkInside(cell_region, cells, rows(half), regions);
-  std::vector<int> marks(static_cast<std::size_t>(halves.count), 0);
+  FrameVector<int> marks(static_cast<std::size_t>(halves.count), 0);
   parallelParts(halves.count, threads, [&](int half) {
     Agglomeration agglomeration(regions, tilesIn(cell_region, cells, rows(half), count),
                                 noise, parameters, 1);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+
 #include "adaptive/region_refinement.h"
+#include "frame_memory.h"
 
 #include <pcl_mrf_planes/organized_points.h>
 
 #include <boost/container/flat_map.hpp>
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,12 +24,14 @@ struct Border {
 /** \brief Borders of regions with each other, and with points on no plane. */
 struct RegionBorders {
   /// By the regions on either side, the smaller number first.
-  boost::container::flat_map<std::pair<int, int>, Border> between;
+  boost::container::flat_map<std::pair<int, int>, Border, std::less<>,
+                             FrameAllocator<std::pair<std::pair<int, int>, Border>>>
+      between;
   /// Border points of each region beyond which the surface is on no plane, looking right
   /// and down.
-  std::vector<int> open;
+  FrameVector<int> open;
   /// Those of them beyond which it goes on in a shallow crease.
-  std::vector<int> goes_on;
+  FrameVector<int> goes_on;
 
   RegionBorders& operator+=(const RegionBorders& other);
 };

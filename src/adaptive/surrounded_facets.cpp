@@ -32,12 +32,12 @@ struct Surroundings {
 
 } // namespace
 
-std::vector<bool> findSurroundedFacets(const FittedRegions& regions,
+FrameVector<bool> findSurroundedFacets(const FittedRegions& regions,
                                        const RegionBorders& borders,
-                                       const std::vector<Fold>& folds,
+                                       const FrameVector<Fold>& folds,
                                        double least_share)
 {
-  std::vector<Surroundings> around(regions.planes.size());
+  FrameVector<Surroundings> around(regions.planes.size());
   for (std::size_t k = 0; k < around.size(); ++k) {
     around[k].all = borders.open[k];
     around[k].smooth = borders.goes_on[k];
@@ -52,7 +52,7 @@ std::vector<bool> findSurroundedFacets(const FittedRegions& regions,
     around[fold.a].fold(turn, fold.length);
     around[fold.b].fold(turn, fold.length);
   }
-  std::vector<bool> surrounded;
+  FrameVector<bool> surrounded;
   surrounded.reserve(around.size());
   for (const Surroundings& of_region : around)
     surrounded.push_back(of_region.all > 0 &&

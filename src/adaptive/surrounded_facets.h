@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+
 #include "adaptive/region_borders.h"
+#include "frame_memory.h"
 
 #include <cstddef>
 #include <vector>
@@ -18,9 +20,9 @@ struct Fold {
  * end at its top and bottom. O(borders + regions)
  * \param[in] least_share of the border of a region that is in folds, or beyond which the
  * surface goes on without a plane */
-std::vector<bool> findSurroundedFacets(const FittedRegions& regions,
+FrameVector<bool> findSurroundedFacets(const FittedRegions& regions,
                                        const RegionBorders& borders,
-                                       const std::vector<Fold>& folds,
+                                       const FrameVector<Fold>& folds,
                                        double least_share);
 
 } // namespace pcl_mrf_planes::adaptive
