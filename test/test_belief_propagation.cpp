@@ -96,7 +96,7 @@ TEST_P(PropagationTest, ThreadsGiveTheSameLabels)
 // Bounds that are equal, labels that are equal, edges that are free or missing.
 TEST_P(PropagationTest, TiesAreTheSameRowByRow)
 {
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
     GridField field = makeField(seed, 0.7);
     scenes::Random random(100 + seed);
     const auto few = [&] {
@@ -114,10 +114,10 @@ TEST_P(PropagationTest, TiesAreTheSameRowByRow)
         if (field.downEdge(x, y) != GridField::NO_EDGE)
           field.setDownEdge(x, y, random.chance(0.7) ? 0 : 3);
       }
-    for (const int iterations : {1, 2, 5}) {
+    for (const int iterations : {1, 5}) {
       BeliefPropagation plain(field);
       plain.iterate(iterations);
-      for (const unsigned int threads : {1U, 3U, 8U})
+      for (const unsigned int threads : {1U, 8U})
         ASSERT_EQ(propagateRows(field, iterations, threads), plain.mapLabels())
             << "seed " << seed << ", " << iterations << " iterations, " << threads
             << " threads";
