@@ -9,6 +9,7 @@
 #include <pcl/io/pcd_io.h>
 
 #include <cstdint>
+#include <exception>
 #include <iostream>
 #include <string>
 
@@ -39,9 +40,7 @@ pcl::PointCloud<pcl::PointXYZL> label(const Cloud& cloud, const TableScene& scen
   return labelled;
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+int run(int argc, char** argv)
 {
   const std::string method = argc > 2 ? argv[2] : "mrf";
   Cloud::Ptr cloud(new Cloud);
@@ -62,4 +61,17 @@ int main(int argc, char** argv)
     return 1;
   }
   return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try {
+    return run(argc, argv);
+  }
+  catch (const std::exception& error) {
+    std::cerr << "objects_on_table: " << error.what() << '\n';
+    return 1;
+  }
 }

@@ -14,11 +14,12 @@ from accuracy_tables import (
 PANELS = {
     'Tiles': ['levels', 'smallest-level', 'tile-tolerance', 'min-fill'],
     'Noise': ['noise-percentile', 'growth-percentile', 'max-growth', 'long-range',
-              'flatness', 'max-flatness', 'min-sigma', 'local-reach',
+              'flatness', 'max-flatness', 'flatness-noise',
+              'quiet-flatness', 'min-sigma', 'local-reach',
               'local-percentile', 'max-local'],
     'Merging': ['merge-tolerance', 'region-tolerance', 'accept-tolerance', 'min-points',
                 'min-evidence', 'join-tolerance', 'join-gap', 'join-seen'],
-    'Curved surfaces': ['fan-parts', 'fan-angle', 'fan-share', 'fan-border', 'fan-gap',
+    'Curved surfaces': ['fan-parts', 'fan-angle', 'fan-share', 'fan-border', 'fan-gap', 'fan-ring',
                         'bend-angle'],
     'Random field': [],  # and all others
 }

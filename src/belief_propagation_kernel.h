@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "frame_memory.h"
+
 #include <pcl_mrf_planes/field_rows.h>
 
 #include <cstdint>
@@ -43,11 +45,11 @@ struct KernelScratch {
   std::uint16_t* belief;  ///< a vector for each label
   std::uint16_t* h;       ///< a vector for each label
   std::uint16_t* message; ///< a vector for each label
-  std::vector<int> active;
-  std::vector<std::uint16_t> row; ///< a row of labels
+  FrameVector<int> active;
+  FrameVector<std::uint16_t> row; ///< a row of labels
 
 private:
-  std::vector<std::uint16_t> buffer_;
+  FrameVector<std::uint16_t> buffer_;
 };
 
 /// The parts of a SiteRow that do not depend on where its messages are kept.

@@ -276,9 +276,9 @@ constexpr std::size_t ALIGNMENT = 64;                       // bytes, of any vec
 
 } // namespace
 
-std::vector<std::uint16_t> cheapestPairs(const PairPrices& prices)
+FrameVector<std::uint16_t> cheapestPairs(const PairPrices& prices)
 {
-  std::vector<std::uint16_t> cheapest(static_cast<std::size_t>(prices.labels()),
+  FrameVector<std::uint16_t> cheapest(static_cast<std::size_t>(prices.labels()),
                                       PairPrices::NO_EDGE);
   for (int a = 0; a < prices.labels(); ++a)
     for (int b = 0; b < prices.labels(); ++b)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "belief_propagation_kernel.h"
+#include "frame_memory.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,7 +22,7 @@ struct UndecidedRow {
 
 /// Least price of each label beside any other one, for edges of weight 0; NO_EDGE for a
 /// single label.
-std::vector<std::uint16_t> cheapestPairs(const PairPrices& prices);
+FrameVector<std::uint16_t> cheapestPairs(const PairPrices& prices);
 
 /// Shifts the neighbours to the left and right so that each lines up with its site.
 void alignToReceivers(UndecidedRow& undecided, int colour, int y);
@@ -36,12 +37,12 @@ public:
   std::uint16_t* low;             ///< bound of the belief: a vector for each label
   std::uint16_t* high;            ///< bound of the belief: a vector for each label
   std::uint16_t* where;           ///< a vector for each open label
-  std::vector<int> open;          ///< labels
-  std::vector<int> active;        ///< labels
-  std::vector<std::uint16_t> row; ///< a row of labels
+  FrameVector<int> open;          ///< labels
+  FrameVector<int> active;        ///< labels
+  FrameVector<std::uint16_t> row; ///< a row of labels
 
 private:
-  std::vector<std::uint16_t> buffer_;
+  FrameVector<std::uint16_t> buffer_;
 };
 
 /** \brief Writes the labels that the sites of the row would have after the last messages,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "label_runs.h"
+#include "frame_memory.h"
 #include "label_runs_kernel.h"
 #include "threads.h"
 
@@ -52,7 +53,7 @@ public:
   }
 
 private:
-  std::vector<std::size_t> root_;
+  FrameVector<std::size_t> root_;
 };
 
 } // namespace
@@ -70,7 +71,7 @@ public:
   , changes_(width)
   {}
 
-  void addRow(std::size_t row, std::vector<LabelRun>& runs)
+  void addRow(std::size_t row, FrameVector<LabelRun>& runs)
   {
     std::size_t begin = row * width_;
     const std::size_t count = findChanges(&labels_[begin], width_, changes_.data());
@@ -86,7 +87,7 @@ private:
   const std::vector<std::uint16_t>& labels_;
   std::size_t width_;
   std::uint16_t background_;
-  std::vector<std::uint32_t> changes_; ///< of the row at hand
+  FrameVector<std::uint32_t> changes_; ///< of the row at hand
 };
 
 } // namespace
@@ -99,9 +100,9 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
   out.width = static_cast<std::size_t>(width);
   const Bands bands(width > 0 ? static_cast<int>(labels.size() / out.width) : 0);
   out.rows.resize(static_cast<std::size_t>(bands.rows) + 1, 0);
-  std::vector<std::vector<LabelRun>> parts(static_cast<std::size_t>(bands.count));
+  FrameVector<FrameVector<LabelRun>> parts(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {
-    std::vector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
+    FrameVector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
     RunFinder finder(labels, out.width, background);
     runs.reserve(FEW *
                  static_cast<std::size_t>(bands.begin(band + 1) - bands.begin(band)));
@@ -112,13 +113,13 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
     }
   });
   std::size_t count = 0;
-  for (const std::vector<LabelRun>& runs : parts)
+  for (const FrameVector<LabelRun>& runs : parts)
     count += runs.size();
   out.runs.reserve(count);
   for (int band = 0; band < bands.count; ++band) {
     for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
       out.rows[static_cast<std::size_t>(r) + 1] += out.runs.size();
-    const std::vector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
+    const FrameVector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
     out.runs.insert(out.runs.end(), runs.begin(), runs.end());
   }
   return out;
@@ -145,9 +146,9 @@ std::size_t countSuccessors(const std::vector<int>& numbers, std::size_t k,
   return good + 1;
 }
 
-std::vector<LabelRun> runsOfRegions(const std::vector<PlaneRegion>& regions, int width)
+FrameVector<LabelRun> runsOfRegions(const std::vector<PlaneRegion>& regions, int width)
 {
-  std::vector<LabelRun> runs;
+  FrameVector<LabelRun> runs;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const std::vector<int>& indices = regions[r].indices;
     int row_end = 0;
@@ -166,11 +167,11 @@ std::vector<LabelRun> runsOfRegions(const std::vector<PlaneRegion>& regions, int
 
 LabelRuns regionRuns(const std::vector<PlaneRegion>& regions, int width, int height)
 {
-  const std::vector<LabelRun> runs = runsOfRegions(regions, width);
+  const FrameVector<LabelRun> runs = runsOfRegions(regions, width);
   LabelRuns out;
   out.width = static_cast<std::size_t>(width);
   // Counting sort by row.
-  std::vector<std::uint32_t> row_of_run;
+  FrameVector<std::uint32_t> row_of_run;
   row_of_run.reserve(runs.size());
   out.rows.assign(static_cast<std::size_t>(height) + 2, 0);
   for (const LabelRun& run : runs) {

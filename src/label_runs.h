@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "frame_memory.h"
+
 #include <pcl_mrf_planes/plane_regions.h>
 
 #include <cstddef>
@@ -20,8 +22,8 @@ struct LabelRun {
 /// of them, so that what is done run by run costs little.
 struct LabelRuns {
   std::size_t width = 0;         ///< of the image
-  std::vector<LabelRun> runs;    ///< row by row
-  std::vector<std::size_t> rows; ///< first run of each row, and the end of the last row
+  FrameVector<LabelRun> runs;    ///< row by row
+  FrameVector<std::size_t> rows; ///< first run of each row, and the end of the last row
 };
 
 /// The first point from i on whose label is another one, or end. Four labels are compared at
@@ -41,7 +43,7 @@ std::size_t countSuccessors(const std::vector<int>& numbers, std::size_t k,
 
 /// Runs of regions, whose points ascend, region by region; the label is the region's number,
 /// from 1. O(runs log points)
-std::vector<LabelRun> runsOfRegions(const std::vector<PlaneRegion>& regions, int width);
+FrameVector<LabelRun> runsOfRegions(const std::vector<PlaneRegion>& regions, int width);
 
 /// The same row by row.
 LabelRuns regionRuns(const std::vector<PlaneRegion>& regions, int width, int height);
@@ -52,10 +54,10 @@ void fillRun(const LabelRun& run, std::uint16_t label,
 
 /// 4-connected parts of a label image, in the order of their first points.
 struct RunParts {
-  std::vector<int> part_of_run;
-  std::vector<int> size;          ///< points of each part
-  std::vector<std::size_t> first; ///< first point of each part
-  std::vector<std::uint16_t> label;
+  FrameVector<int> part_of_run;
+  FrameVector<int> size;          ///< points of each part
+  FrameVector<std::size_t> first; ///< first point of each part
+  FrameVector<std::uint16_t> label;
 };
 
 /// Joins runs of the same label that lie above one another. O(runs)
@@ -66,7 +68,7 @@ RunParts connectRuns(const LabelRuns& image);
 template <typename Overlap>
 void forEachOverlap(const LabelRuns& image, std::size_t row, const Overlap& overlap)
 {
-  const std::vector<LabelRun>& runs = image.runs;
+  const FrameVector<LabelRun>& runs = image.runs;
   std::size_t a = image.rows[row];
   std::size_t b = image.rows[row + 1];
   const std::size_t a_last = image.rows[row + 1];

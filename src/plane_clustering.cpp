@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/plane_clustering.h>
 
+#include "frame_memory.h"
+#include "paper_stages.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -19,14 +22,20 @@ auto content(const PlaneModel& m)
                          m.plane.normal.z(), m.plane.d, m.points);
 }
 
+/// Some planes that follow each other in memory.
+struct PlaneModels {
+  const PlaneModel* first;
+  std::size_t count;
+};
+
 /// The planes still alive and the plane that each one's data refers to.
 class Merger {
 public:
-  Merger(const std::vector<PlaneModel>& models, double beta, double threshold)
-  : models_(models)
+  Merger(PlaneModels models, double beta, double threshold)
+  : models_(models.first)
   , beta_(beta)
   , threshold_(threshold)
-  , refers_to_(models.size())
+  , refers_to_(models.count)
   {
     std::iota(refers_to_.begin(), refers_to_.end(), std::size_t{0});
     alive_ = refers_to_;
@@ -44,7 +53,7 @@ public:
   }
 
   /// Survivors, in no particular order.
-  const std::vector<std::size_t>& survivors() const { return alive_; }
+  const FrameVector<std::size_t>& survivors() const { return alive_; }
 
   /// The survivor that plane \a i ended at; halves the path on the way.
   std::size_t survivorOf(std::size_t i)
@@ -76,7 +85,7 @@ private:
     std::sort(alive_.begin(), alive_.end(), [&](std::size_t i, std::size_t j) {
       return projection(i) < projection(j);
     });
-    std::vector<std::size_t> kept;
+    FrameVector<std::size_t> kept;
     for (const std::size_t next : alive_) {
       if (kept.empty() || !similar(kept.back(), next)) {
         kept.push_back(next);
@@ -98,7 +107,7 @@ private:
   {
     std::sort(alive_.begin(), alive_.end(),
               [&](std::size_t i, std::size_t j) { return better(i, j); });
-    std::vector<std::size_t> kept;
+    FrameVector<std::size_t> kept;
     for (const std::size_t next : alive_) {
       std::size_t closest = next;
       double least = threshold_;
@@ -117,46 +126,67 @@ private:
     alive_ = std::move(kept);
   }
 
-  const std::vector<PlaneModel>& models_;
+  const PlaneModel* models_;
   double beta_;
   double threshold_;
-  std::vector<std::size_t> refers_to_;
-  std::vector<std::size_t> alive_;
+  FrameVector<std::size_t> refers_to_;
+  FrameVector<std::size_t> alive_;
 };
+
+/// \param planes those that are left \return which of them each one refers to
+FrameVector<int> merge(PlaneModels models, double beta, double threshold,
+                       std::vector<PlaneModel>& planes)
+{
+  Merger merger(models, beta, threshold);
+  merger.run();
+
+  FrameVector<double> support(models.count, 0.0);
+  for (std::size_t i = 0; i < models.count; ++i)
+    support[merger.survivorOf(i)] += models.first[i].points;
+
+  FrameVector<std::size_t> order = merger.survivors();
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return std::make_tuple(-support[i], content(models.first[i])) <
+           std::make_tuple(-support[j], content(models.first[j]));
+  });
+
+  planes.clear();
+  FrameVector<int> label(models.count, PlaneClusters::NONE);
+  for (const std::size_t i : order) {
+    label[i] = static_cast<int>(planes.size());
+    planes.push_back({models.first[i].plane, models.first[i].error, support[i]});
+  }
+  FrameVector<int> assignment;
+  assignment.reserve(models.count);
+  for (std::size_t i = 0; i < models.count; ++i)
+    assignment.push_back(label[merger.survivorOf(i)]);
+  return assignment;
+}
 
 } // namespace
 
 PlaneClusters mergePlanes(const std::vector<PlaneModel>& models, double beta,
                           double threshold)
 {
-  Merger merger(models, beta, threshold);
-  merger.run();
-
-  std::vector<double> support(models.size(), 0.0);
-  for (std::size_t i = 0; i < models.size(); ++i)
-    support[merger.survivorOf(i)] += models[i].points;
-
-  std::vector<std::size_t> order = merger.survivors();
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-    return std::make_tuple(-support[i], content(models[i])) <
-           std::make_tuple(-support[j], content(models[j]));
-  });
-
   PlaneClusters clusters;
-  std::vector<int> label(models.size(), PlaneClusters::NONE);
-  for (const std::size_t i : order) {
-    label[i] = static_cast<int>(clusters.planes.size());
-    clusters.planes.push_back({models[i].plane, models[i].error, support[i]});
-  }
-  for (std::size_t i = 0; i < models.size(); ++i)
-    clusters.assignment.push_back(label[merger.survivorOf(i)]);
+  const FrameVector<int> assignment =
+      merge({models.data(), models.size()}, beta, threshold, clusters.planes);
+  clusters.assignment.assign(assignment.begin(), assignment.end());
   return clusters;
 }
 
 PlaneClusters clusterTilePlanes(const TileImage& image, const Parameters& parameters)
 {
-  std::vector<PlaneModel> models;
-  std::vector<std::size_t> tile_of_model;
+  PlaneClusters clusters;
+  clusterTilePlanes(image, parameters, clusters);
+  return clusters;
+}
+
+void clusterTilePlanes(const TileImage& image, const Parameters& parameters,
+                       PlaneClusters& clusters)
+{
+  FrameVector<PlaneModel> models;
+  FrameVector<std::size_t> tile_of_model;
   for (std::size_t i = 0; i < image.tiles.size(); ++i) {
     const TilePlane& tile = image.tiles[i];
     if (!tile.kept())
@@ -165,18 +195,17 @@ PlaneClusters clusterTilePlanes(const TileImage& image, const Parameters& parame
     tile_of_model.push_back(i);
   }
 
-  PlaneClusters clusters =
-      mergePlanes(models, parameters.beta, parameters.merge_threshold);
+  const FrameVector<int> assignment =
+      merge({models.data(), models.size()}, parameters.beta, parameters.merge_threshold,
+            clusters.planes);
   const auto limit = static_cast<std::size_t>(parameters.max_planes);
   if (clusters.planes.size() > limit)
     clusters.planes.resize(limit);
 
-  std::vector<int> tile_plane(image.tiles.size(), PlaneClusters::NONE);
+  clusters.assignment.assign(image.tiles.size(), PlaneClusters::NONE);
   for (std::size_t i = 0; i < models.size(); ++i)
-    if (clusters.assignment[i] < parameters.max_planes)
-      tile_plane[tile_of_model[i]] = clusters.assignment[i];
-  clusters.assignment = std::move(tile_plane);
-  return clusters;
+    if (assignment[i] < parameters.max_planes)
+      clusters.assignment[tile_of_model[i]] = assignment[i];
 }
 
 } // namespace pcl_mrf_planes

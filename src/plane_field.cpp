@@ -2,6 +2,7 @@
 #include <pcl_mrf_planes/plane_field.h>
 
 #include "field_kernel.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,20 @@ double depthScale(const Plane& p, const Plane& q)
   return 0.5 * (std::abs(1.0 - p.normal.z()) + std::abs(1.0 - q.normal.z()));
 }
 
+/// OrganizedPoints::depthRow() in memory of the frame.
+const float* depthRow(const OrganizedPoints& points, int row,
+                      FrameVector<float>& storage)
+{
+  const std::size_t start =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(points.width);
+  if (points.depth_measure != DepthMeasure::RANGE)
+    return &points.z[start];
+  storage.resize(static_cast<std::size_t>(points.width));
+  for (std::size_t i = 0; i < storage.size(); ++i)
+    storage[i] = points.depth(start + i);
+  return storage.data();
+}
+
 std::uint16_t rounded(double units)
 {
   // One below NO_EDGE: a weight must not be taken for a missing edge.
@@ -42,19 +57,33 @@ PlaneField::PlaneField(const OrganizedPoints& points, std::vector<Plane> planes,
 , parameters_(parameters)
 , layout_(points.width, points.height)
 {
-  const auto labels = static_cast<Eigen::Index>(planes_.size());
-  dissimilarity_.resize(labels, labels);
-  for (Eigen::Index a = 0; a < labels; ++a)
-    for (Eigen::Index b = 0; b < labels; ++b)
-      dissimilarity_(a, b) = // (9); exactly 0 for a label and itself
-          a == b
-              ? 0.0
-              : dissimilarity(planes_[static_cast<std::size_t>(a)],
-                              planes_[static_cast<std::size_t>(b)], parameters_.beta);
+  prepare();
+}
+
+PlaneField::PlaneField(const OrganizedPoints& points, const std::vector<Plane>& planes,
+                       const Parameters& parameters, PlaneField&& memory)
+: points_(points)
+, planes_(std::move(memory.planes_))
+, parameters_(parameters)
+, dissimilarity_(std::move(memory.dissimilarity_))
+, layout_(points.width, points.height)
+, prices_(std::move(memory.prices_))
+{
+  planes_.assign(planes.begin(), planes.end());
+  prepare();
+}
+
+void PlaneField::prepare()
+{
+  dissimilarity_.clear();
+  for (const Plane& a : planes_)
+    for (const Plane& b : planes_)
+      dissimilarity_.push_back( // (9); exactly 0 for a label and itself
+          &a == &b ? 0.0 : dissimilarity(a, b, parameters_.beta));
 
   const bool scaled = parameters_.smoothness == Smoothness::PREDICTED_DEPTH;
-  prices_ = PairPrices(labelCount(planes_),
-                       scaled ? EdgeModel::SCALED_MAXIMUM : EdgeModel::SOFT_THRESHOLD);
+  prices_.reset(labelCount(planes_),
+                scaled ? EdgeModel::SCALED_MAXIMUM : EdgeModel::SOFT_THRESHOLD);
   choosePrices(scaled ? largestDepthStep() : 0.0);
 }
 
@@ -90,7 +119,7 @@ void PlaneField::fillData(int y, const FieldRow& row) const
 {
   const auto width = static_cast<std::size_t>(points_.width);
   const std::size_t start = static_cast<std::size_t>(y) * width;
-  std::vector<std::uint16_t> costs(width +
+  FrameVector<std::uint16_t> costs(width +
                                    1); // one more: a row of width 1 has no odd site
   for (int l = 0; l < prices_.labels(); ++l) {
     const Plane& plane = planes_[static_cast<std::size_t>(l)];
@@ -125,17 +154,17 @@ void PlaneField::fillEdges(int y, const FieldRow& row) const
   const auto width = static_cast<std::size_t>(points_.width);
   const std::size_t start = static_cast<std::size_t>(y) * width;
   const auto scale = static_cast<float>(edgeScale());
-  std::vector<std::uint16_t> weights(width + 1, PairPrices::NO_EDGE);
-  std::vector<float> range;
-  const float* depth = points_.depthRow(y, range);
+  FrameVector<std::uint16_t> weights(width + 1, PairPrices::NO_EDGE);
+  FrameVector<float> range;
+  const float* depth = depthRow(points_, y, range);
   const std::uint8_t* valid = &points_.valid[start];
   edgeWeightRow(depth, depth + 1, valid, valid + 1, scale, width - 1, weights.data());
   weights[width - 1] = PairPrices::NO_EDGE;
   split(weights.data(), y, row.right, 0);
 
   if (y + 1 < points_.height) {
-    std::vector<float> range_below;
-    edgeWeightRow(depth, points_.depthRow(y + 1, range_below), valid, valid + width,
+    FrameVector<float> range_below;
+    edgeWeightRow(depth, depthRow(points_, y + 1, range_below), valid, valid + width,
                   scale, width, weights.data());
   }
   else
@@ -180,15 +209,15 @@ double PlaneField::smoothnessTerm(int a, int b, double dz) const
   case Smoothness::POTTS:
     return a == b ? 0.0 : parameters_.gamma; // (8)
   case Smoothness::DISSIMILARITY:
-    return dissimilarity_(a, b); // (9)
+    return labelDissimilarity(a, b); // (9)
   case Smoothness::HYBRID:
-    return std::max(std::abs(dz), dissimilarity_(a, b)); // (10)
+    return std::max(std::abs(dz), labelDissimilarity(a, b)); // (10)
   case Smoothness::PREDICTED_DEPTH:
     break;
   }
   const double scale = depthScale(planes_[static_cast<std::size_t>(a)],
                                   planes_[static_cast<std::size_t>(b)]);
-  return std::max(scale * std::abs(dz), dissimilarity_(a, b)); // text before (10)
+  return std::max(scale * std::abs(dz), labelDissimilarity(a, b)); // text before (10)
 }
 
 FieldEnergy PlaneField::energy(const std::vector<std::uint16_t>& labels) const

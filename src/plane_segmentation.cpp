@@ -5,24 +5,19 @@
 #include <pcl_mrf_planes/row_propagation.h>
 
 #include "adaptive/stage_observer.h"
-#include "adaptive/workspace.h"
+#include "frame_memory.h"
+#include "paper_stages.h"
 #include "region_gathering.h"
+#include "segmenter_memory.h"
 #include "stage_timer.h"
 #include "threads.h"
 
 #include <cmath>
+#include <utility>
 
 namespace pcl_mrf_planes {
 
 namespace {
-
-std::vector<Plane> labelPlanes(const PlaneClusters& clusters)
-{
-  std::vector<Plane> planes;
-  for (const PlaneModel& model : clusters.planes)
-    planes.push_back(model.plane);
-  return planes;
-}
 
 /// The tolerance in 16-bit units; -1 for never.
 int toleranceUnits(double tolerance, double units_per_energy)
@@ -35,30 +30,83 @@ int toleranceUnits(double tolerance, double units_per_energy)
 /// MAP labels by belief propagation, section IV-D. Where nothing is asked for between
 /// the iterations they run row by row; otherwise one after the other. The labels are
 /// the same.
-std::vector<std::uint16_t> inferLabels(const PlaneField& field,
-                                       const Parameters& parameters,
-                                       SegmentationReport& report)
+void inferLabels(const PlaneField& field, const Parameters& parameters,
+                 SegmentationReport& report, std::vector<std::uint16_t>& labels)
 {
   const int tolerance =
       toleranceUnits(parameters.convergence_tolerance, field.unitsPerEnergy());
   if (tolerance < 0 && !parameters.compute_energy) {
     report.iterations = parameters.iterations;
-    return propagateRows(field, parameters.iterations, parameters.number_of_threads);
+    propagateRows(field, parameters.iterations, parameters.number_of_threads, labels);
+    return;
   }
   const GridField grid = field.toGridField();
   BeliefPropagation propagation(grid, parameters.number_of_threads);
   if (!parameters.compute_energy) {
     report.iterations = propagation.iterate(parameters.iterations, tolerance);
-    return propagation.mapLabels();
+    labels = propagation.mapLabels();
+    return;
   }
-  std::vector<std::uint16_t> labels = propagation.mapLabels();
+  labels = propagation.mapLabels();
   report.energy.push_back(field.energy(labels));
   while (report.iterations < parameters.iterations && !propagation.settled(tolerance)) {
     report.iterations += propagation.iterate(1);
     labels = propagation.mapLabels();
     report.energy.push_back(field.energy(labels));
   }
-  return labels;
+}
+
+/// C and D: the Markov random field of the planes, in the memory of the one before, and MAP
+/// labels by it.
+void labelPoints(const OrganizedPoints& points, const Parameters& parameters,
+                 PaperMemory& memory, StageTimer& timer, PlaneSegmentation& result)
+{
+  const std::vector<Plane>& planes = memory.regions.planes;
+  if (memory.field)
+    memory.field.emplace(
+        PlaneField(points, planes, parameters, std::move(*memory.field)));
+  else
+    memory.field.emplace(points, planes, parameters);
+  timer.finish("field");
+  inferLabels(*memory.field, parameters, result.report, result.labels);
+  timer.finish("propagation");
+}
+
+/// Section IV of the paper.
+void segmentAsInPaper(const OrganizedPoints& points, const Parameters& parameters,
+                      PaperMemory& memory, PlaneSegmentation& result)
+{
+  SegmentationReport& report = result.report;
+  startAnew(report);
+  result.block_noise.reset();
+  StageTimer timer(report.stage_ms);
+
+  // A. Planar surface detection
+  detectTilePlanes(points, parameters, result.tiles);
+  timer.finish("tiles");
+
+  // B. Merging planes
+  clusterTilePlanes(result.tiles, parameters, result.clusters);
+  std::vector<Plane>& planes = memory.regions.planes;
+  planes.clear();
+  for (const PlaneModel& model : result.clusters.planes)
+    planes.push_back(model.plane);
+  timer.finish("merging");
+
+  if (planes.empty())
+    result.labels.assign(points.size(), NO_PLANE);
+  else
+    labelPoints(points, parameters, memory, timer, result);
+  gatherRegions(points, parameters.min_inliers, parameters.min_area,
+                parameters.number_of_threads, result.labels, memory.regions,
+                result.regions);
+  regionLabels(points, result.regions, result.labels);
+  timer.finish("regions");
+
+  report.tiles_tried = result.tiles.tiles.size();
+  report.tiles_kept = result.tiles.countKept();
+  report.planes_after_merging = planes.size();
+  report.count(points, result.regions);
 }
 
 } // namespace
@@ -105,53 +153,22 @@ PlaneSegmenter::~PlaneSegmenter() = default;
 void PlaneSegmenter::segment(const OrganizedPoints& points,
                              const Parameters& parameters, PlaneSegmentation& result)
 {
+  if (!memory_)
+    memory_ = std::make_unique<SegmenterMemory>();
   const ThreadTeam team(parameters.number_of_threads);
-  if (parameters.method == Method::PAPER) {
-    result = {}; // not two at a time
-    result = segmentAsInPaper(points, parameters);
-    return;
-  }
-  if (!workspace_)
-    workspace_ = std::make_unique<adaptive::Workspace>();
-  adaptive::segmentObserved(points, parameters, nullptr, *workspace_, result);
+  const FrameMemoryScope scope(&memory_->frame);
+  if (parameters.method == Method::PAPER)
+    segmentAsInPaper(points, parameters, memory_->paper, result);
+  else
+    adaptive::segmentObserved(points, parameters, nullptr, memory_->adaptive, result);
 }
 
 PlaneSegmentation segmentAsInPaper(const OrganizedPoints& points,
                                    const Parameters& parameters)
 {
+  PaperMemory memory;
   PlaneSegmentation result;
-  SegmentationReport& report = result.report;
-  StageTimer timer(report.stage_ms);
-
-  // A. Planar surface detection
-  result.tiles = detectTilePlanes(points, parameters);
-  timer.finish("tiles");
-
-  // B. Merging planes
-  result.clusters = clusterTilePlanes(result.tiles, parameters);
-  timer.finish("merging");
-
-  std::vector<std::uint16_t> map_labels;
-  const std::vector<Plane> planes = labelPlanes(result.clusters);
-  if (!planes.empty()) {
-    // C. The Markov random field
-    const PlaneField field(points, planes, parameters);
-    timer.finish("field");
-
-    // D. MRF energy optimization by belief propagation
-    map_labels = inferLabels(field, parameters, report);
-    timer.finish("propagation");
-
-    result.regions = gatherRegions(points, planes, map_labels, parameters.min_inliers,
-                                   parameters.min_area, parameters.number_of_threads);
-  }
-  result.labels = regionLabels(points, result.regions);
-  timer.finish("regions");
-
-  report.tiles_tried = result.tiles.tiles.size();
-  report.tiles_kept = result.tiles.countKept();
-  report.planes_after_merging = planes.size();
-  report.count(points, result.regions);
+  segmentAsInPaper(points, parameters, memory, result);
   return result;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "region_area.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ public:
   void addRows(std::size_t first, std::size_t last)
   {
     const std::size_t height = image_.rows.size() - 1;
-    std::vector<Strip> above;
-    std::vector<Strip> below;
+    FrameVector<Strip> above;
+    FrameVector<Strip> below;
     if (first > 0)
       findStrips(first - 1, above);
     for (std::size_t row = first; row < last; ++row) {
@@ -58,7 +59,7 @@ public:
     return *this;
   }
 
-  std::vector<double> twice_areas;
+  FrameVector<double> twice_areas;
 
 private:
   /// n . (p x q): what the edge from p to q adds to twice the area of its label.
@@ -70,7 +71,7 @@ private:
   }
 
   /// Strips between a row and the next one.
-  void findStrips(std::size_t row, std::vector<Strip>& strips) const
+  void findStrips(std::size_t row, FrameVector<Strip>& strips) const
   {
     const std::size_t width = image_.width;
     forEachOverlap(image_, row, [&](std::size_t a, std::size_t b) {
@@ -114,7 +115,7 @@ private:
 
   /// Edges along a row: those with a face below but none above, from left to right, and
   /// those with a face above but none below, back.
-  void addEdges(const std::vector<Strip>& above, const std::vector<Strip>& below,
+  void addEdges(const FrameVector<Strip>& above, const FrameVector<Strip>& below,
                 std::size_t width)
   {
     addUncovered(below, 0, above, width, 1.0);
@@ -123,8 +124,8 @@ private:
 
   /// Edges of the strips that no strip of the other side of the row covers. Each side's
   /// points lie so far from the row itself.
-  void addUncovered(const std::vector<Strip>& strips, std::size_t offset,
-                    const std::vector<Strip>& others, std::size_t other_offset,
+  void addUncovered(const FrameVector<Strip>& strips, std::size_t offset,
+                    const FrameVector<Strip>& others, std::size_t other_offset,
                     double sign)
   {
     std::size_t k = 0;
@@ -160,11 +161,11 @@ private:
 
 } // namespace
 
-std::vector<double> meshAreas(const OrganizedPoints& points,
+FrameVector<double> meshAreas(const OrganizedPoints& points,
                               const std::vector<Plane>& planes, const LabelRuns& image,
                               unsigned int threads)
 {
-  std::vector<double> areas =
+  FrameVector<double> areas =
       sumOfBands(static_cast<int>(image.rows.size()) - 1, threads,
                  MeshBorder(points, planes, image),
                  [](int first, int last, MeshBorder& border) {

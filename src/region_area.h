@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "frame_memory.h"
 #include "label_runs.h"
 
 #include <pcl_mrf_planes/organized_points.h>
@@ -17,7 +18,7 @@ namespace pcl_mrf_planes {
 /// (Stokes); an edge between two faces is gone round both ways and cancels, so that only
 /// the border of the mesh is visited. O(runs + border)
 /// \param[in] planes of the labels 0, 1, 2, ...
-std::vector<double> meshAreas(const OrganizedPoints& points,
+FrameVector<double> meshAreas(const OrganizedPoints& points,
                               const std::vector<Plane>& planes, const LabelRuns& image,
                               unsigned int threads = 1);
 

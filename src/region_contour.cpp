@@ -29,8 +29,8 @@ ConnectedParts findConnectedParts(const std::vector<std::uint16_t>& labels, int 
         parts.part_of_point.begin() + static_cast<std::ptrdiff_t>(image.runs[k].begin),
         parts.part_of_point.begin() + static_cast<std::ptrdiff_t>(image.runs[k].end),
         found.part_of_run[k]);
-  parts.size = found.size;
-  parts.label = found.label;
+  parts.size.assign(found.size.begin(), found.size.end());
+  parts.label.assign(found.label.begin(), found.label.end());
   for (const std::size_t first : found.first)
     parts.first.push_back(static_cast<int>(first));
   return parts;

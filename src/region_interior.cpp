@@ -11,7 +11,7 @@ namespace pcl_mrf_planes {
 
 namespace {
 
-using Runs = std::vector<LabelRun>;
+using Runs = FrameVector<LabelRun>;
 
 /// Runs of a row, ascending.
 struct RowRuns {

@@ -13,7 +13,7 @@ namespace pcl_mrf_planes {
 
 /// Points of a region and what their plane follows from.
 struct RegionInterior {
-  std::vector<LabelRun> runs; ///< ascending
+  FrameVector<LabelRun> runs; ///< ascending
   double n = 0;               ///< points
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

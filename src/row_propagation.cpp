@@ -2,7 +2,9 @@
 #include <pcl_mrf_planes/row_propagation.h>
 
 #include "belief_propagation_kernel.h"
+#include "frame_memory.h"
 #include "label_decision_kernel.h"
+#include "paper_stages.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -211,25 +213,24 @@ private:
   int sent_;         // iterations whose messages are sent
   int ring_;         // rows in memory
   std::uint16_t least_pairwise_;
-  std::vector<std::uint16_t> cheapest_;
+  FrameVector<std::uint16_t> cheapest_;
   KernelScratch scratch_;
   DecisionScratch decision_scratch_;
-  std::vector<std::uint16_t> gaps_;
-  std::vector<std::uint16_t> data_[2];
-  std::vector<std::uint16_t> right_[2];
-  std::vector<std::uint16_t> down_[2];
-  std::vector<std::uint16_t> received_[DIRECTIONS][2];
+  FrameVector<std::uint16_t> gaps_;
+  FrameVector<std::uint16_t> data_[2];
+  FrameVector<std::uint16_t> right_[2];
+  FrameVector<std::uint16_t> down_[2];
+  FrameVector<std::uint16_t> received_[DIRECTIONS][2];
 };
 
 /// Sweeps the image in bands; finish(sweep, y, image) writes a row.
 template <typename Finish>
-std::vector<std::uint16_t> sweep(const FieldRows& field, int iterations,
-                                 unsigned int threads, bool gaps, const Finish& finish)
+void sweep(const FieldRows& field, int iterations, unsigned int threads, bool gaps,
+           const Finish& finish, std::vector<std::uint16_t>& image)
 {
   const int width = field.layout().width;
   const int height = field.layout().height;
-  std::vector<std::uint16_t> image(static_cast<std::size_t>(width) *
-                                   static_cast<std::size_t>(height));
+  image.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   // No more bands than leave each one at least as much of its own as it repeats.
   const int most = std::max(1, height / std::max(1, 2 * iterations));
   const int bands = std::min(threadCount(threads), most);
@@ -241,27 +242,40 @@ std::vector<std::uint16_t> sweep(const FieldRows& field, int iterations,
     BandSweep rows(field, iterations, start(band), start(band + 1), gaps);
     rows.run([&](int y) { finish(rows, y, image); });
   });
-  return image;
 }
 
 } // namespace
 
+void propagateRows(const FieldRows& field, int iterations, unsigned int threads,
+                   std::vector<std::uint16_t>& labels)
+{
+  sweep(
+      field, iterations, threads, false,
+      [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
+        rows.label(y, image);
+      },
+      labels);
+}
+
 std::vector<std::uint16_t> propagateRows(const FieldRows& field, int iterations,
                                          unsigned int threads)
 {
-  return sweep(field, iterations, threads, false,
-               [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
-                 rows.label(y, image);
-               });
+  std::vector<std::uint16_t> labels;
+  propagateRows(field, iterations, threads, labels);
+  return labels;
 }
 
 std::vector<std::uint16_t> propagateRowGaps(const FieldRows& field, int iterations,
                                             unsigned int threads)
 {
-  return sweep(field, iterations, threads, true,
-               [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
-                 rows.gap(y, image);
-               });
+  std::vector<std::uint16_t> gaps;
+  sweep(
+      field, iterations, threads, true,
+      [](BandSweep& rows, int y, std::vector<std::uint16_t>& image) {
+        rows.gap(y, image);
+      },
+      gaps);
+  return gaps;
 }
 
 } // namespace pcl_mrf_planes

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl_mrf_planes/plane_segmentation.h>
+
 #include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace pcl_mrf_planes {
+
+/// A report of nothing yet, in the memory of the one before.
+inline void startAnew(SegmentationReport& report)
+{
+  SegmentationReport anew;
+  std::swap(anew.energy, report.energy);
+  std::swap(anew.stage_ms, report.stage_ms);
+  anew.energy.clear();
+  anew.stage_ms.clear();
+  report = std::move(anew);
+}
 
 /// Writes down how long each stage took, one after the other.
 class StageTimer {

@@ -23,24 +23,28 @@ int threadCount(unsigned int setting)
                       : static_cast<int>(setting);
 }
 
-/// Where the maker of a team puts up its work and helpers take parts of it.
+/// Where the maker of a team puts up its work and helpers take parts of it: the maker the
+/// first that is left and they the last, so that each works on the same end of the image from
+/// one job to the next and finds it in the cache of its core. Jobs in order: all the first.
 ///
-/// A job's number, its parts and the next of them are one word. Who takes a part reads the
-/// job first and then moves the word on: if that succeeds, the word has not changed meanwhile,
-/// and the job neither, as another one is put up only when all parts of the last are done.
+/// A job's number, its parts and how many of them have been taken from either end are one
+/// word. Who takes a part reads the job first and then moves the word on: if that succeeds,
+/// the word has not changed meanwhile, and the job neither, as another one is put up only when
+/// all parts of the last are done.
 class ThreadTeam::Board {
 public:
-  static constexpr std::uint64_t MOST_PARTS = (1U << 20U) - 1;
+  static constexpr std::uint64_t MOST_PARTS = (1U << 14U) - 1;
 
-  void run(int parts, const void* work, Call call)
+  void run(int parts, const void* work, Call call, Order order)
   {
     work_.store(work, std::memory_order_relaxed);
     call_.store(call, std::memory_order_relaxed);
+    order_.store(order, std::memory_order_relaxed);
     done_.store(0, std::memory_order_relaxed);
-    const std::uint64_t job = (word_.load(std::memory_order_relaxed) >> 2 * BITS) + 1;
-    word_.store((job << 2 * BITS) | (static_cast<std::uint64_t>(parts) << BITS),
+    const std::uint64_t job = (word_.load(std::memory_order_relaxed) >> 3 * BITS) + 1;
+    word_.store((job << 3 * BITS) | (static_cast<std::uint64_t>(parts) << 2 * BITS),
                 std::memory_order_release);
-    while (doPart())
+    while (doPart(Order::FORWARD))
       ;
     for (Patience patience; done_.load(std::memory_order_acquire) < parts;)
       patience.wait();
@@ -52,7 +56,7 @@ public:
   void help()
   {
     for (Patience patience; !ended_.load(std::memory_order_acquire);)
-      if (doPart())
+      if (doPart(Order::ANY))
         patience = {};
       else
         patience.wait();
@@ -62,22 +66,31 @@ public:
 
 private:
   static constexpr unsigned BITS =
-      20; // of the parts, and of the next one; the job's are 24
+      16; // of the parts taken from an end; the job's are 32
 
+  /// \param[in] order which part, if the job does not mind: the first or the last
   /// \return whether there was a part to do
-  bool doPart()
+  bool doPart(Order order)
   {
     std::uint64_t word = word_.load(std::memory_order_acquire);
     const void* work = work_.load(std::memory_order_relaxed);
     const Call call = call_.load(std::memory_order_relaxed);
-    const std::uint64_t parts = (word >> BITS) & MOST_PARTS;
-    const std::uint64_t part = word & MOST_PARTS;
-    if (part >= parts)
+    if (order_.load(std::memory_order_relaxed) == Order::FORWARD)
+      order = Order::FORWARD;
+    const auto field = [word](unsigned place) {
+      return static_cast<int>((word >> place * BITS) & MOST_PARTS);
+    };
+    const int first = field(0);
+    const int last = field(1);
+    const int parts = field(2);
+    if (first + last >= parts)
       return false;
-    if (!word_.compare_exchange_strong(word, word + 1, std::memory_order_acq_rel))
-      return true; // somebody else took it
+    const bool forward = order == Order::FORWARD;
+    const std::uint64_t taken = std::uint64_t{1} << (forward ? 0U : BITS);
+    if (!word_.compare_exchange_strong(word, word + taken, std::memory_order_acq_rel))
+      return true; // somebody else took one
     try {
-      call(work, static_cast<int>(part));
+      call(work, forward ? first : parts - 1 - last);
     }
     catch (...) {
       const std::lock_guard<std::mutex> lock(failing_);
@@ -90,6 +103,7 @@ private:
   std::atomic<std::uint64_t> word_{0};
   std::atomic<const void*> work_{nullptr};
   std::atomic<Call> call_{nullptr};
+  std::atomic<Order> order_{Order::ANY};
   std::atomic<int> done_{0};
   std::atomic<bool> ended_{false};
   std::mutex failing_;
@@ -206,7 +220,7 @@ ThreadTeam::~ThreadTeam()
   team_of_this_thread = nullptr;
 }
 
-void ThreadTeam::run(int parts, const void* work, Call call)
+void ThreadTeam::run(int parts, const void* work, Call call, Order order)
 {
   team_of_this_thread = nullptr; // what work asks for runs one by one
   struct Return {
@@ -214,7 +228,7 @@ void ThreadTeam::run(int parts, const void* work, Call call)
     ~Return() { team_of_this_thread = team; }
   } back{this};
   if (static_cast<std::uint64_t>(parts) <= Board::MOST_PARTS)
-    board_->run(parts, work, call);
+    board_->run(parts, work, call, order);
   else // of a size that no image has
     for (int part = 0; part < parts; ++part)
       call(work, part);
@@ -226,7 +240,7 @@ ThreadTeam* ThreadTeam::ofThisThread()
 }
 
 ThreadScope::ThreadScope(unsigned int threads)
-: team_(std::make_unique<ThreadTeam>(threads))
+: team_(threads == 1 ? nullptr : std::make_unique<ThreadTeam>(threads))
 {}
 
 ThreadScope::~ThreadScope() = default;

@@ -38,6 +38,9 @@ class ThreadTeam {
 public:
   using Call = void (*)(const void* work, int part);
 
+  /// Whether the parts of a job must be begun one after the other, or in any order.
+  enum class Order { FORWARD, ANY };
+
   /// \param[in] threads 0: as many as there are cores; 1: no team
   explicit ThreadTeam(unsigned int threads);
   ThreadTeam(const ThreadTeam&) = delete;
@@ -45,7 +48,7 @@ public:
   ~ThreadTeam();
 
   /// Calls call(work, part) for every part. Not from within itself: that runs one by one.
-  void run(int parts, const void* work, Call call);
+  void run(int parts, const void* work, Call call, Order order = Order::ANY);
 
   /// The team that the calling thread has made and that is not at work; else null.
   static ThreadTeam* ofThisThread();

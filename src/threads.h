@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "frame_memory.h"
 #include "thread_team.h"
 
 #include <algorithm>
@@ -12,18 +13,28 @@
 namespace pcl_mrf_planes {
 
 /// Calls work(part) for every part below \a parts. Parts must not depend on each other, so
-/// that the result is the same at any thread count. They are handed out in their order to
-/// the calling thread and to those of its team that are there: it never waits for one that
-/// has not begun, as where other programs have the cores. Of what work throws one is thrown
-/// again here, after all parts.
+/// that the result is the same at any thread count. They are handed out to the calling
+/// thread, from the first, and to those of its team that are there, from the last, or to all
+/// in their order: it never waits for one that has not begun, as where other programs have
+/// the cores. Of what work throws one is thrown again here, after all parts.
 template <typename Work>
-void parallelParts(int parts, unsigned int threads, const Work& work)
+void parallelParts(int parts, unsigned int threads, const Work& work,
+                   ThreadTeam::Order order = ThreadTeam::Order::ANY)
 {
   if (parts > 1 && threadCount(threads) > 1)
     if (ThreadTeam* team = ThreadTeam::ofThisThread()) {
-      team->run(parts, &work, [](const void* task, int part) {
-        (*static_cast<const Work*>(task))(part);
-      });
+      const struct Task {
+        const Work& work;
+        FrameMemory* memory; ///< of the caller, for those of its team as well
+      } task = {work, FrameMemory::ofThisThread()};
+      team->run(
+          parts, &task,
+          [](const void* what, int part) {
+            const Task& all = *static_cast<const Task*>(what);
+            const FrameMemoryScope scope(all.memory);
+            all.work(part);
+          },
+          order);
       return;
     }
   for (int part = 0; part < parts; ++part)
@@ -67,7 +78,7 @@ void addTo(Sum& sum, const Sum& part)
   sum += part;
 }
 template <typename Sum>
-void addTo(std::vector<Sum>& sums, const std::vector<Sum>& parts)
+void addTo(FrameVector<Sum>& sums, const FrameVector<Sum>& parts)
 {
   for (std::size_t k = 0; k < sums.size(); ++k)
     addTo(sums[k], parts[k]);
@@ -81,7 +92,7 @@ Sum sumOfBands(int rows, unsigned int threads, const Sum& none, const Add& add)
   constexpr int FEW =
       4; // each has a sum of its own, of as many numbers as there are labels
   const Bands bands(rows, FEW);
-  std::vector<Sum> sums(static_cast<std::size_t>(bands.count), none);
+  FrameVector<Sum> sums(static_cast<std::size_t>(bands.count), none);
   parallelParts(bands.count, threads, [&](int band) {
     add(bands.begin(band), bands.begin(band + 1), sums[static_cast<std::size_t>(band)]);
   });
@@ -120,7 +131,7 @@ private:
     return done_[static_cast<std::size_t>(strip)].steps;
   }
 
-  std::vector<Counter> done_;
+  FrameVector<Counter> done_;
 };
 
 /// Calls work(strip, step) for every step of every strip, as if step by step and in each of
@@ -130,7 +141,7 @@ template <typename Work>
 void staggeredSteps(int strips, int steps, unsigned int threads, const Work& work)
 {
   StripProgress progress(strips);
-  parallelParts(strips, threads, [&](int strip) {
+  const auto takeSteps = [&](int strip) {
     try {
       for (int step = 0; step < steps; ++step) {
         if (strip > 0)
@@ -143,7 +154,8 @@ void staggeredSteps(int strips, int steps, unsigned int threads, const Work& wor
       progress.reach(strip, steps);
       throw;
     }
-  });
+  };
+  parallelParts(strips, threads, takeSteps, ThreadTeam::Order::FORWARD);
 }
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_mrf_planes/tile_plane_detection.h>
 
+#include "paper_stages.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -87,6 +88,13 @@ std::size_t TileImage::countKept() const
 TileImage detectTilePlanes(const OrganizedPoints& points, const Parameters& parameters)
 {
   TileImage image;
+  detectTilePlanes(points, parameters, image);
+  return image;
+}
+
+void detectTilePlanes(const OrganizedPoints& points, const Parameters& parameters,
+                      TileImage& image)
+{
   image.tile_width = parameters.tile_width;
   image.tile_height = parameters.tile_height;
   image.columns = (points.width + image.tile_width - 1) / image.tile_width;
@@ -104,7 +112,6 @@ TileImage detectTilePlanes(const OrganizedPoints& points, const Parameters& para
           fitTile(points, boundsOf(image, points, column, row), parameters);
     }
   });
-  return image;
 }
 
 } // namespace pcl_mrf_planes

@@ -41,7 +41,7 @@ struct Merged {
 };
 
 /// Energy of labels of the cells by planes that stay as they were.
-double energyOf(const Merged& m, const std::vector<int>& labels)
+double energyOf(const Merged& m, const FrameVector<int>& labels)
 {
   const TileLevel& cells = m.pyramid[0];
   double energy = 0;
@@ -67,7 +67,7 @@ double energyOf(const Merged& m, const std::vector<int>& labels)
 }
 
 /// Labels of the result by the numbers of the planes before, if all of them are left.
-std::vector<int> withOldNumbers(const Merged& m, const TileRegions& result)
+FrameVector<int> withOldNumbers(const Merged& m, const TileRegions& result)
 {
   EXPECT_EQ(result.planes.size(), m.regions.planes.size());
   return result.cell_region;
@@ -115,7 +115,7 @@ TEST(CellLabellingTest, APlaneGrowsOverWhatFitsIt)
   for (int& id : merged.regions.cell_region)
     if (id >= 0 && kept[id]++ >= 200)
       id = -1;
-  const auto count = [](const std::vector<int>& labels) {
+  const auto count = [](const FrameVector<int>& labels) {
     return std::count_if(labels.begin(), labels.end(), [](int id) { return id >= 0; });
   };
   const auto before = count(merged.regions.cell_region);

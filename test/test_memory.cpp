@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a segmentation leaves behind: nothing that grows. PCL_MRF_PLANES_LONG=1 runs ten
-// thousand frames and the largest cloud (3 GB of memory) as well.
+// What a segmentation asks for, nothing once it has seen its clouds, and what it leaves behind:
+// nothing that grows. PCL_MRF_PLANES_LONG=1 runs ten thousand frames and the largest cloud (3 GB
+// of memory) as well.
+#include "allocation_calls.h"
+#include "frame_memory.h"
 #include "reference/inputs.h"
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
@@ -47,6 +50,143 @@ Cloud::Ptr corner(int width, int height)
       cloud->at(u, v) = {x * z, y * z, z};
     }
   return cloud;
+}
+
+Cloud::Ptr toCloud(const scenes::SceneFrame& frame)
+{
+  Cloud::Ptr cloud(new Cloud(static_cast<std::uint32_t>(frame.width),
+                             static_cast<std::uint32_t>(frame.height)));
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    (*cloud)[i] = {frame.x[i], frame.y[i], frame.z[i]};
+  return cloud;
+}
+
+Cloud::Ptr room(int width, int height, std::uint64_t seed)
+{
+  return toCloud(reference::takePicture("room", width, height, seed,
+                                        scenes::SensorNoise::kinect()));
+}
+
+/// Seen all around: its depth is the distance, which the fields measure themselves.
+Cloud::Ptr lidarRoom()
+{
+  scenes::View view = scenes::makeScene("room", 3);
+  view.camera.makeLidar(512, 64);
+  return toCloud(
+      scenes::render(view.scene, view.camera, scenes::SensorNoise::gaussian(0.01), 3));
+}
+
+/// Cameras and a lidar, several sizes, many planes and few.
+std::vector<Cloud::Ptr> differentClouds()
+{
+  return {room(320, 240, 1), corner(320, 240),  lidarRoom(),
+          room(320, 240, 2), room(200, 170, 5), corner(33, 17)};
+}
+
+/// An object and all that it is asked to fill, for one cloud after the other.
+class Sequence {
+public:
+  Sequence(Profile profile, unsigned int threads)
+  {
+    segmentation_.setProfile(profile);
+    segmentation_.setNumberOfThreads(threads);
+  }
+
+  /// \return how often memory was asked for
+  std::size_t segment(const Cloud::Ptr& cloud)
+  {
+    const std::size_t before = test::allocationCalls();
+    segmentation_.setInputCloud(cloud);
+    segmentation_.segment(planes_, inliers_);
+    segmentation_.segment(planes_, inliers_, centroids_, covariances_, labels_,
+                          label_indices_);
+    return test::allocationCalls() - before;
+  }
+
+  std::size_t segment(const std::vector<Cloud::Ptr>& clouds)
+  {
+    std::size_t calls = 0;
+    for (const Cloud::Ptr& cloud : clouds)
+      calls += segment(cloud);
+    return calls;
+  }
+
+  std::size_t planes() const { return planes_.size(); }
+
+private:
+  Segmentation segmentation_;
+  std::vector<pcl::ModelCoefficients> planes_;
+  std::vector<pcl::PointIndices> inliers_, label_indices_;
+  Segmentation::Centroids centroids_;
+  Segmentation::Covariances covariances_;
+  pcl::PointCloud<pcl::Label> labels_;
+};
+
+constexpr Profile PROFILES[] = {Profile::DEFAULT, Profile::FAST, Profile::PAPER};
+
+class Allocation : public testing::TestWithParam<Profile> {
+protected:
+  void SetUp() override
+  {
+    if (!FrameMemory::keeps())
+      GTEST_SKIP() << "a sanitizer is to see every vector";
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Profiles, Allocation, testing::ValuesIn(PROFILES));
+
+TEST_P(Allocation, ARepeatedFrameNeedsNone)
+{
+  for (const Cloud::Ptr& cloud : differentClouds()) {
+    Sequence sequence(GetParam(), 1);
+    EXPECT_GT(sequence.segment(cloud), 0U) << "they are counted";
+    sequence.segment(cloud);
+    for (int frame = 0; frame < 3; ++frame)
+      EXPECT_EQ(sequence.segment(cloud), 0U) << cloud->width << " columns";
+  }
+}
+
+TEST_P(Allocation, FramesThatAlternateNeedNone)
+{
+  const std::vector<Cloud::Ptr> clouds = differentClouds();
+  Sequence sequence(GetParam(), 1);
+  for (int round = 0; round < 3; ++round)
+    sequence.segment(clouds);
+  EXPECT_EQ(sequence.segment(clouds), 0U);
+  sequence.segment(clouds[0]);
+  EXPECT_GT(sequence.planes(), 3U);
+}
+
+TEST_P(Allocation, TwoThreadsNeedThatOfTheirTeam)
+{
+  const Cloud::Ptr cloud = room(320, 240, 1);
+  Sequence sequence(GetParam(), 2);
+  std::size_t least = sequence.segment(cloud);
+  for (int frame = 0; frame < 20; ++frame)
+    least = std::min(least, sequence.segment(cloud));
+  constexpr std::size_t OF_A_TEAM = 2; // itself and the board of its work
+  EXPECT_LE(least, 2 * OF_A_TEAM) << "two clouds are segmented";
+}
+
+TEST(Memory, TheCoreNeedsNoneEither)
+{
+  if (!FrameMemory::keeps())
+    GTEST_SKIP() << "a sanitizer is to see every vector";
+  OrganizedPoints points = reference::toPoints(
+      reference::takePicture("room", 320, 240, 1, scenes::SensorNoise::kinect()));
+  points.resolveDepthMeasure(DepthMeasure::AUTO);
+  for (const Profile profile : PROFILES) {
+    Parameters parameters = Parameters::fromProfile(profile);
+    parameters.number_of_threads = 1;
+    PlaneSegmenter segmenter;
+    PlaneSegmentation result;
+    for (int frame = 0; frame < 3; ++frame)
+      segmenter.segment(points, parameters, result);
+    const std::size_t before = test::allocationCalls();
+    segmenter.segment(points, parameters, result);
+    EXPECT_EQ(test::allocationCalls() - before, 0U)
+        << "profile " << static_cast<int>(profile);
+  }
 }
 
 TEST(Memory, DoesNotGrowWithTheFrames)

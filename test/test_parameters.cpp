@@ -126,6 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
         real("long_range", &AdaptiveParameters::long_range, 1, 1e6),
         real("flatness", &AdaptiveParameters::flatness, 0, 1e6),
         real("max_flatness", &AdaptiveParameters::max_flatness, 0, 1e6),
+        real("flatness_noise", &AdaptiveParameters::flatness_noise, 0, 1e6),
+        real("quiet_flatness", &AdaptiveParameters::quiet_flatness, 0, 1),
         real("min_sigma", &AdaptiveParameters::min_sigma, 1e-9, 1e6),
         whole("local_reach", &AdaptiveParameters::local_reach, 0, 16),
         real("local_percentile", &AdaptiveParameters::local_percentile, 0, 1),
@@ -143,6 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
         real("fan_share", &AdaptiveParameters::fan_share, 0, 1),
         real("fan_border", &AdaptiveParameters::fan_border, 0, 1e6),
         real("fan_gap", &AdaptiveParameters::fan_gap, 0, 1e6),
+        real("fan_ring", &AdaptiveParameters::fan_ring, 0, 2),
         real("bend_angle", &AdaptiveParameters::bend_angle, 0, 720),
         whole("support_reach", &AdaptiveParameters::support_reach, 1, 512),
         real("none_cost", &AdaptiveParameters::none_cost, 1e-6, 1e3),
@@ -194,6 +197,10 @@ TEST(ParametersTest, ANoiseWithoutLimitIsForThePaperOnly)
   EXPECT_EQ(p.validate().find("noise has no limit"), 0U) << p.validate();
   p.method = Method::PAPER;
   EXPECT_EQ(p.validate(), "") << "the paper keeps every tile then";
+  p.method = Method::ADAPTIVE;
+  p.noise = {0.01, 0.0, 1e5};
+  EXPECT_EQ(p.validate().find("noise has no limit"), 0U)
+      << "far away: " << p.validate();
 }
 
 TEST(ParametersTest, ProfilesNameTheMethodAndShareTheOtherValues)
@@ -224,7 +231,8 @@ TEST(ParametersTest, NoiseMustBePositiveAndANumber)
   Parameters p;
   for (const NoiseModel& bad :
        {NoiseModel{0, 0, 0}, NoiseModel{-1, 0, 0}, NoiseModel{NOT_A_NUMBER, 0, 0},
-        NoiseModel{0, NOT_A_NUMBER, 0}, NoiseModel{0, 0, NOT_A_NUMBER}}) {
+        NoiseModel{0, NOT_A_NUMBER, 0}, NoiseModel{0, 0, NOT_A_NUMBER},
+        NoiseModel{std::numeric_limits<double>::infinity(), 1e308, -1e308}}) {
     p.noise = bad;
     EXPECT_NE(p.validate().find("noise"), std::string::npos)
         << "noise " << bad.a << " " << bad.b << " " << bad.c << " must be refused";

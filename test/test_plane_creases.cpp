@@ -96,6 +96,35 @@ TEST(PlaneCreasesTest, EdgesOfABoxAreFoundWithTheirEndPoints)
   }
 }
 
+TEST(PlaneCreasesTest, MoveWithTheirPlanes)
+{
+  scenes::Random random(8);
+  for (int run = 0; run < 50; ++run) {
+    SensorPose pose;
+    pose.rotation =
+        Eigen::AngleAxisd(3.0 * random.uniform(), reference::randomUnit(random))
+            .toRotationMatrix();
+    pose.origin = 5.0 * reference::randomUnit(random);
+    const Plane a = reference::randomPlane(random);
+    const Plane b = reference::randomPlane(random);
+    PlaneCrease crease;
+    Eigen::Vector3d along;
+    ASSERT_TRUE(intersectPlanes(a, b, {0, 0, 2}, crease.start, along));
+    crease.end = crease.start + 0.4 * along;
+    crease.angle = normalAngle(a, b);
+    const PlaneCrease moved = inCloudFrame(crease, pose);
+    for (const Plane& plane : {a, b}) {
+      Plane there;
+      there.normal = pose.rotation * plane.normal;
+      there.d = plane.d - there.normal.dot(pose.origin);
+      EXPECT_NEAR(there.distance(moved.start), 0.0, 1e-6);
+      EXPECT_NEAR(there.distance(moved.end), 0.0, 1e-6);
+    }
+    EXPECT_NEAR(moved.length(), 0.4, 1e-9);
+    EXPECT_EQ(moved.angle, crease.angle);
+  }
+}
+
 // A wall goes on behind the jamb of its door: most of it, and its centroid, lie before the
 // jamb's plane, though where they meet is an edge; and beyond it is a corner.
 TEST(PlaneCreasesTest, EdgesAreToldFromCornersWhereTheyAre)

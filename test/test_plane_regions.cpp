@@ -72,7 +72,7 @@ TEST(PlaneRegionsTest, RunsAndSumsThatAreKnownGiveTheSame)
   for (int i = 0; i < 5; ++i)
     planes.push_back(reference::randomPlane(random));
   std::vector<std::uint16_t> labels;
-  std::vector<ScatterMatrix> sums(planes.size());
+  FrameVector<ScatterMatrix> sums(planes.size());
   std::uint16_t label = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (random.chance(0.3))
@@ -83,9 +83,11 @@ TEST(PlaneRegionsTest, RunsAndSumsThatAreKnownGiveTheSame)
       sums[label].add(points.x[i], points.y[i], points.z[i]);
   }
   const LabelRuns runs = findRuns(labels, points.width, NO_PLANE);
-  for (const int least : {0, 60, 100}) {
+  RegionMemory memory = {planes, {}, 0};
+  std::vector<PlaneRegion> regions; // those of the round before leave their memory
+  for (const int least : {0, 100, 60, 100}) {
     const auto expected = gatherRegions(points, planes, labels, least);
-    const auto regions = gatherRegions(points, planes, runs, sums, least, 0.0);
+    gatherRegions(points, runs, sums, least, 0.0, 1, memory, regions);
     ASSERT_EQ(regions.size(), expected.size());
     for (std::size_t k = 0; k < regions.size(); ++k) {
       EXPECT_EQ(regions[k].label, expected[k].label);

@@ -313,6 +313,20 @@ TEST_F(WallTest, NoiseThatNeighboursShareIsAllowedFor)
   EXPECT_GT(coverage.share(), 0.90);
 }
 
+TEST(UncertaintyNoiseTest, IsStatedWhereTheDefaultProfileDoesNotEstimateIt)
+{
+  Parameters parameters;
+  parameters.noise = NoiseModel::fixed(0.02);
+  for (const Method method : {Method::ADAPTIVE, Method::PAPER})
+    for (const bool estimates : {true, false}) {
+      parameters.method = method;
+      parameters.adaptive.estimate_noise = estimates;
+      const UncertaintyNoise noise = UncertaintyNoise::of(parameters);
+      EXPECT_EQ(noise.stated, method == Method::ADAPTIVE && !estimates);
+      EXPECT_EQ(noise.model.sigma(3.0), 0.02);
+    }
+}
+
 TEST(PlaneUncertaintyTest, PointsThatAreNoPlaneSaySo)
 {
   OrganizedPoints points;
@@ -329,6 +343,15 @@ TEST(PlaneUncertaintyTest, PointsThatAreNoPlaneSaySo)
     EXPECT_FALSE(found.valid);
     EXPECT_TRUE(std::isinf(found.minimal(0, 0)) && std::isinf(found.covariance(3, 3)));
     EXPECT_EQ(found.minimal(0, 1), 0.0);
+    SensorPose pose;
+    pose.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    pose.origin = Eigen::Vector3d(1, 2, 3);
+    const PlaneUncertainty moved = inCloudFrame(found, pose);
+    EXPECT_FALSE(moved.valid);
+    EXPECT_EQ(moved.minimal, found.minimal) << "infinity has no other frame";
+    EXPECT_EQ(moved.covariance, found.covariance);
+    EXPECT_NEAR(moved.plane.distance(pose.rotation * found.centroid + pose.origin),
+                found.plane.distance(found.centroid), 1e-9);
   }
   EXPECT_TRUE(planeUncertainties(points, {}).empty());
 }

@@ -56,7 +56,7 @@ TEST(SampledPointsTest, TakeEverySoManyth)
 /// Two walls that meet in a vertical edge at the column \a edge, and a point on neither.
 struct Crease {
   OrganizedPoints points;
-  std::vector<FittedPlane> planes;
+  FrameVector<FittedPlane> planes;
 
   Crease(int width, int height, int edge)
   : planes(2)

@@ -198,6 +198,22 @@ INSTANTIATE_TEST_SUITE_P(Profiles, StagesTest,
                          testing::Values(Profile::DEFAULT, Profile::FAST,
                                          Profile::PAPER));
 
+TEST(StagesOfTheDefaultTest, JoiningIsRecordedWhereItIsDone)
+{
+  const OrganizedPoints points = room();
+  for (const bool joins : {true, false}) {
+    Parameters parameters;
+    parameters.adaptive.join_coplanar = joins;
+    const SegmentationStages stages = recordStages(points, parameters);
+    expectSound(points, stages);
+    expectSameResult(stages.result, segmentPlanes(points, parameters));
+    const auto joined = std::count_if(
+        stages.labels.begin(), stages.labels.end(),
+        [](const StageLabels& labels) { return labels.stage == Stage::JOINED; });
+    EXPECT_EQ(joined, joins ? 1 : 0);
+  }
+}
+
 TEST(StagesOfThePaperTest, EnergiesAreThoseOfTheReport)
 {
   const OrganizedPoints points = room();

@@ -47,6 +47,23 @@ TEST(ThreadTeam, DoesMorePartsThanAreHandedOut)
   expectEachOnce(1 << 20);
 }
 
+TEST(ThreadTeam, BeginsPartsInOrderIfTheyMind)
+{
+  constexpr int PARTS = 40;
+  const ThreadTeam team(THREADS);
+  for (int round = 0; round < 200; ++round) {
+    std::atomic<int> begun{0};
+    std::vector<int> before(PARTS); // so many had begun, for each part
+    parallelParts(
+        PARTS, THREADS,
+        [&](int part) { before[static_cast<std::size_t>(part)] = begun++; },
+        ThreadTeam::Order::FORWARD);
+    // Others may have been handed out and not have come to begin yet.
+    for (int part = 0; part < PARTS; ++part)
+      EXPECT_NEAR(before[static_cast<std::size_t>(part)], part, THREADS - 1);
+  }
+}
+
 TEST(ThreadTeam, WhatAPartThrowsArrivesAfterAllParts)
 {
   const ThreadTeam team(THREADS);

@@ -28,6 +28,7 @@ const std::vector<Ablation>& ablations()
       {"same noise for all sizes", {{"max-growth", "1"}, {"long-range", "1"}}},
       {"same noise everywhere", {{"max-local", "1"}}},
       {"exactly flat planes", {{"flatness", "0"}}},
+      {"flatness without noise alike", {{"quiet-flatness", "1"}}},
       // Tiles
       {"tiles of 16 points only", {{"levels", "3"}, {"smallest-level", "2"}}},
       {"tiles of 32 points only", {{"levels", "4"}, {"smallest-level", "3"}}},
@@ -47,6 +48,7 @@ const std::vector<Ablation>& ablations()
       {"every second point and row", {{"sampling", "2"}}},
       // What is no plane
       {"curved surfaces stay", {{"fan-parts", "0"}, {"bend-angle", "360"}}},
+      {"surrounded facets stay", {{"fan-ring", "2"}}},
       {"no evidence needed", {{"min-evidence", "0"}}}};
   return all;
 }

@@ -35,7 +35,10 @@ struct PCL_MRF_PLANES_EXPORT AdaptiveParameters {
   double long_range = 2.0; ///< sigma of large planes over the largest tile's, where the
                            ///< noise is correlated, >= 1
   double flatness = 0.012; ///< a plane may bend by this share of its extent, >= 0,
-  double max_flatness = 0.002; ///< but by no more than this, metres, >= 0
+  double max_flatness = 0.002;     ///< but by no more than this, metres, >= 0
+  double flatness_noise = 0.00115; ///< of the points that allow all of it, metres, >= 0
+  double quiet_flatness =
+      0.55;                ///< share of it that is left without noise, 0 to 1; 1: off
   double min_sigma = 2e-5; ///< least sigma at 1 m, growing with distance, metres, > 0
   int local_reach = 2;     ///< window of the local noise, tiles each way, 0 to 16
   double local_percentile = 0.25; ///< of the tiles' rms in that window, 0 to 1
@@ -70,6 +73,10 @@ struct PCL_MRF_PLANES_EXPORT AdaptiveParameters {
   double fan_share = 0.003;
   double fan_border = 0.5; ///< common border over the side of the smaller part, >= 0
   double fan_gap = 3.0;    ///< step across a smooth border, sigmas, >= 0
+  /// A plane no larger than such is part of a curved surface, too, where so much of its
+  /// border lies in such creases, which turn in more than one direction; share, 0 to 2;
+  /// above 1: off
+  double fan_ring = 0.9;
   /// Turn of the normal, by a quadric, that makes a region curved, degrees, times the root
   /// of the share of the variance that the quadric explains; 720: off
   double bend_angle = 14.0;

@@ -26,11 +26,20 @@ public:
   /// Prices of 0 for all pairs. \param[in] labels how many, >= 1
   /// \param[in] model how weights and labels give a price. O(labels^2)
   explicit PairPrices(int labels, EdgeModel model = EdgeModel::SOFT_THRESHOLD)
-  : labels_(labels)
-  , model_(model)
-  , pairwise_(static_cast<std::size_t>(labels) * static_cast<std::size_t>(labels), 0)
-  , scale_(pairwise_)
-  {}
+  {
+    reset(labels, model);
+  }
+
+  /// As made anew, in the memory that is there. \param[in] labels how many, >= 1
+  /// \param[in] model how weights and labels give a price. O(labels^2)
+  void reset(int labels, EdgeModel model)
+  {
+    labels_ = labels;
+    model_ = model;
+    const auto count = static_cast<std::size_t>(labels);
+    pairwise_.assign(count * count, 0);
+    scale_.assign(count * count, 0);
+  }
 
   /// Number of labels.
   int labels() const { return labels_; }

@@ -400,8 +400,12 @@ private:
   void copyPoints(int width, int height);
   void limitToIndices();
   void fillModels(std::vector<ModelCoefficients>& model_coefficients,
-                  std::vector<PointIndices>& inlier_indices) const;
-  void fillLabels(PointCloudL& labels, std::vector<PointIndices>& label_indices) const;
+                  std::vector<PointIndices>& inlier_indices);
+  void fillLabels(PointCloudL& labels, std::vector<PointIndices>& label_indices);
+  /// What there is too much of goes to \a spare, with its memory, and comes back from there.
+  template <typename Output>
+  static void resizeOutput(std::vector<Output>& output, std::size_t size,
+                           std::vector<Output>& spare);
   void fillRegions(PlanarRegions& regions, std::vector<PointIndices>& boundaries) const;
   std::vector<PointIndices> contours() const;
   Eigen::Vector4d coefficients(const pcl_mrf_planes::Plane& plane) const;
@@ -435,6 +439,12 @@ private:
   pcl_mrf_planes::OrganizedPoints points_;
   pcl_mrf_planes::PlaneSegmenter segmenter_;
   pcl_mrf_planes::PlaneSegmentation result_;
+  // Memory that is used again for the next cloud.
+  std::vector<pcl_mrf_planes::Sighting> sightings_;
+  std::vector<std::uint8_t> inside_;
+  std::vector<ModelCoefficients> spare_coefficients_;
+  std::vector<PointIndices> spare_inliers_;
+  std::vector<PointIndices> spare_label_indices_;
 };
 
 } // namespace pcl

@@ -42,6 +42,13 @@ public:
    */
   PlaneField(const OrganizedPoints& points, std::vector<Plane> planes,
              const Parameters& parameters);
+  /** \brief The same in the memory of another one, which is of no more use then.
+   * \param[in] points the cloud, must outlive this object
+   * \param[in] planes the L label planes, at least one
+   * \param[in] parameters lambda, tau, beta, gamma and the smoothness term
+   * \param[in] memory any field */
+  PlaneField(const OrganizedPoints& points, const std::vector<Plane>& planes,
+             const Parameters& parameters, PlaneField&& memory);
 
   /** \brief All the costs in 16-bit units at once. O(points * planes) */
   GridField toGridField() const { return GridField(*this); }
@@ -71,18 +78,24 @@ public:
   FieldEnergy energy(const std::vector<std::uint16_t>& labels) const;
 
 private:
+  void prepare();
   void choosePrices(double largest_depth_step);
   void fillData(int y, const FieldRow& row) const;
   void fillEdges(int y, const FieldRow& row) const;
   void split(const std::uint16_t* costs, int y, std::uint16_t* const colours[2],
              std::ptrdiff_t offset) const;
   double edgeScale() const;
+  double labelDissimilarity(int a, int b) const
+  {
+    return dissimilarity_[static_cast<std::size_t>(a) * planes_.size() +
+                          static_cast<std::size_t>(b)];
+  }
   double largestDepthStep() const;
 
   const OrganizedPoints& points_;
   std::vector<Plane> planes_;
   Parameters parameters_;
-  Eigen::MatrixXd dissimilarity_; ///< equation (9) for every pair of labels
+  std::vector<double> dissimilarity_; ///< equation (9) for every pair of labels
   double units_ = 1.0;
   CheckerboardLayout layout_;
   PairPrices prices_;

@@ -45,8 +45,8 @@ struct PCL_MRF_PLANES_EXPORT SegmentationReport {
 
 namespace adaptive {
 struct BlockNoise;
-struct Workspace;
 } // namespace adaptive
+struct SegmenterMemory;
 
 /** \brief Result of a run, in the sensor frame. */
 struct PCL_MRF_PLANES_EXPORT PlaneSegmentation {
@@ -92,7 +92,7 @@ public:
                PlaneSegmentation& result);
 
 private:
-  std::unique_ptr<adaptive::Workspace> workspace_; ///< null until it is needed
+  std::unique_ptr<SegmenterMemory> memory_; ///< null until it is needed
 };
 
 /** \brief Method::PAPER: section IV of the paper in one function.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adaptive/candidate_field.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ public:
   : strips_(Bands(field.blocks.columns, strips).count)
   {
     const auto columns = static_cast<std::size_t>(field.blocks.columns);
-    std::vector<std::size_t> border = borders(field);
+    FrameVector<std::size_t> border = borders(field);
     border.push_back(columns);
     const auto begin = field.active.begin();
     for (int row = 0; row <= field.blocks.rows; ++row)
@@ -40,15 +41,15 @@ public:
 
 private:
   /// The first column of each strip.
-  std::vector<std::size_t> borders(const CandidateField& field) const
+  FrameVector<std::size_t> borders(const CandidateField& field) const
   {
     const auto columns = static_cast<std::size_t>(field.blocks.columns);
-    std::vector<std::size_t> left_of(columns + 1, 0); // active blocks, by column
+    FrameVector<std::size_t> left_of(columns + 1, 0); // active blocks, by column
     for (const std::size_t block : field.active)
       ++left_of[block % columns + 1];
     for (std::size_t c = 0; c < columns; ++c)
       left_of[c + 1] += left_of[c];
-    std::vector<std::size_t> border;
+    FrameVector<std::size_t> border;
     for (int strip = 0; strip < strips_; ++strip) {
       const std::size_t wanted = field.active.size() * static_cast<std::size_t>(strip) /
                                  static_cast<std::size_t>(strips_);
@@ -59,7 +60,7 @@ private:
   }
 
   int strips_;
-  std::vector<std::size_t> first_; ///< by row of blocks and strip
+  FrameVector<std::size_t> first_; ///< by row of blocks and strip
 };
 
 } // namespace pcl_mrf_planes::adaptive

@@ -17,9 +17,11 @@
 #include "stage_timer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace pcl_mrf_planes {
 
@@ -158,6 +160,20 @@ Labelling labelSampled(const OrganizedPoints& points, int every,
   return found;
 }
 
+/// Keeps what the confidence asks for, in the memory that is there if nobody else has it.
+void keepNoise(const NoiseLaw& noise, const TileLevel& blocks,
+               std::shared_ptr<const BlockNoise>& kept)
+{
+  std::shared_ptr<BlockNoise> own = std::const_pointer_cast<BlockNoise>(kept);
+  kept.reset();
+  if (own.use_count() == 1)
+    std::atomic_thread_fence(std::memory_order_acquire); // all others are done with it
+  else
+    own = std::make_shared<BlockNoise>();
+  own->assign(noise, blocks);
+  kept = std::move(own);
+}
+
 } // namespace
 
 PlaneSegmentation segmentAdaptively(const OrganizedPoints& points,
@@ -174,23 +190,26 @@ void adaptive::segmentObserved(const OrganizedPoints& points,
                                Workspace& workspace, PlaneSegmentation& result)
 {
   std::vector<std::uint16_t> labels = std::move(result.labels);
-  result = {};
+  result.tiles = {};
+  result.clusters = {};
   SegmentationReport& report = result.report;
+  startAnew(report);
   Watch watch = {report, StageTimer(report.stage_ms), observer};
   const int every = samplingStep(points, parameters.adaptive);
   Labelling found =
       every > 1
           ? labelSampled(points, every, parameters, watch, workspace, std::move(labels))
           : labelPlanes(points, parameters, watch, workspace, std::move(labels));
-  if (every == 1) // it is of blocks of samples otherwise
-    result.block_noise =
-        std::make_shared<const BlockNoise>(found.noise, workspace.pyramid[BLOCK_LEVEL]);
-  const std::vector<Plane> planes(found.fitted.planes.begin(),
-                                  found.fitted.planes.end());
+  if (every == 1)
+    keepNoise(found.noise, workspace.pyramid[BLOCK_LEVEL], result.block_noise);
+  else
+    result.block_noise.reset(); // it would be of blocks of samples
+  std::vector<Plane>& planes = workspace.regions.planes;
+  planes.assign(found.fitted.planes.begin(), found.fitted.planes.end());
   const LabelRuns runs = planeRuns(found.image.runs);
-  result.regions = gatherRegions(
-      points, planes, runs, {found.fitted.sums.begin(), found.fitted.sums.end()},
-      parameters.min_inliers, parameters.min_area, parameters.number_of_threads);
+  gatherRegions(points, runs, {found.fitted.sums.begin(), found.fitted.sums.end()},
+                parameters.min_inliers, parameters.min_area,
+                parameters.number_of_threads, workspace.regions, result.regions);
   result.labels = std::move(found.image.labels);
   paintRegions(runs, result.regions, planes.size(), result.labels,
                parameters.number_of_threads);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/block_costs.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ bool any(BlockRow::Numbers numbers)
 } // namespace
 
 BlockCosts::BlockCosts(const OrganizedPoints& points,
-                       const std::vector<LabelScale>& scales, const TileLevel& cells,
+                       const FrameVector<LabelScale>& scales, const TileLevel& cells,
                        const AdaptiveParameters& parameters, CostUnits units)
 : points_(points)
 , cells_(cells)

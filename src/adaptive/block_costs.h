@@ -3,6 +3,7 @@
 
 #include "adaptive/block_place.h"
 #include "adaptive/label_scale.h"
+#include "frame_memory.h"
 
 #include <array>
 #include <vector>
@@ -16,7 +17,7 @@ public:
   static constexpr std::size_t OPEN = SIZE_MAX; ///< more than one label can win
 
   /** \param[in] scales of the regions, label - 1 */
-  BlockCosts(const OrganizedPoints& points, const std::vector<LabelScale>& scales,
+  BlockCosts(const OrganizedPoints& points, const FrameVector<LabelScale>& scales,
              const TileLevel& cells, const AdaptiveParameters& parameters,
              CostUnits units);
 
@@ -66,7 +67,7 @@ private:
   const TileLevel& cells_;
   const AdaptiveParameters& parameters_;
   CostUnits units_;
-  const std::vector<LabelScale>& scales_;
+  const FrameVector<LabelScale>& scales_;
   // of the block at hand
   PointRow row_;
   std::array<std::array<float, SIDE>, SLOTS> per_sigma_ = {};

@@ -4,7 +4,6 @@
 #include "adaptive/noise_estimation.h"
 #include "adaptive/tile_pyramid.h"
 
-#include <utility>
 #include <vector>
 
 namespace pcl_mrf_planes::adaptive {
@@ -27,9 +26,10 @@ struct BlockNoise {
   NoiseLaw noise;
   std::vector<Block> blocks; ///< of BLOCK_LEVEL of the tile pyramid
 
-  BlockNoise(NoiseLaw law, const TileLevel& of_blocks)
-  : noise(std::move(law))
+  void assign(const NoiseLaw& law, const TileLevel& of_blocks)
   {
+    noise = law;
+    blocks.clear();
     blocks.reserve(of_blocks.sums.size());
     for (const TileSums& sums : of_blocks.sums)
       blocks.push_back({sums.n, sums.x, sums.y, sums.z, sums.noise});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/candidate_field.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ public:
   }
 
   /// Distances in cells and regions, the nearest first.
-  const std::vector<std::pair<int, int>>& regions()
+  const FrameVector<std::pair<int, int>>& regions()
   {
     found_.clear();
     for (int r = top_; r < bottom_; ++r)
@@ -76,7 +77,7 @@ private:
   int reach_;
   int column_ = 0, row_ = 0;                        ///< first cell of the block
   int left_ = 0, right_ = 0, top_ = 0, bottom_ = 0; ///< cells around it, half open
-  std::vector<std::pair<int, int>> found_;
+  FrameVector<std::pair<int, int>> found_;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "adaptive/candidate_field.h"
 #include "adaptive/block_costs.h"
 #include "adaptive/edge_weights.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct FieldSources {
   const std::vector<TileLevel>& pyramid;
   const NoiseLaw& noise;
   const AdaptiveParameters& parameters;
-  std::vector<LabelScale> scales;
+  FrameVector<LabelScale> scales;
   const float* depth; ///< of each point
 
   /// \param ranges memory for those of the points

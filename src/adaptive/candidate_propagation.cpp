@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/active_strips.h"
 #include "adaptive/candidate_field.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -268,7 +269,7 @@ private:
   unsigned int threads_;
   const CandidateBlocks& blocks_;
   std::vector<Messages>& received_;
-  std::vector<Place> places_; ///< of the active blocks
+  FrameVector<Place> places_; ///< of the active blocks
   ActiveStrips strips_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/cell_labelling.h"
 #include "adaptive/label_scale.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ public:
     });
   }
 
-  const std::vector<int>& labels() const { return labels_; }
+  const FrameVector<int>& labels() const { return labels_; }
 
 private:
   static constexpr std::size_t SIDES = 4;
@@ -132,14 +133,14 @@ private:
   const TileLevel& cells_;
   double none_;
   double change_; ///< price of a change along a side of a cell
-  std::vector<LabelScale> scales_;
-  std::vector<int> labels_;
+  FrameVector<LabelScale> scales_;
+  FrameVector<int> labels_;
 };
 
 /// Adds up the cells of each label; blocks of one label as a whole.
 class CellSums {
 public:
-  CellSums(const std::vector<TileLevel>& pyramid, const std::vector<int>& labels,
+  CellSums(const std::vector<TileLevel>& pyramid, const FrameVector<int>& labels,
            std::size_t count)
   : sums(count)
   , cells_(pyramid[0])
@@ -162,7 +163,7 @@ public:
     return *this;
   }
 
-  std::vector<TileSums> sums;
+  FrameVector<TileSums> sums;
 
 private:
   /// Whether a block has four cells of this label.
@@ -185,11 +186,11 @@ private:
 
   const TileLevel& cells_;
   const TileLevel& blocks_;
-  const std::vector<int>& labels_;
+  const FrameVector<int>& labels_;
 };
 
-std::vector<TileSums> sumLabels(const std::vector<TileLevel>& pyramid,
-                                const std::vector<int>& labels, std::size_t count,
+FrameVector<TileSums> sumLabels(const std::vector<TileLevel>& pyramid,
+                                const FrameVector<int>& labels, std::size_t count,
                                 unsigned int threads)
 {
   return sumOfBands(pyramid[BLOCK_LEVEL].rows, threads,
@@ -210,10 +211,10 @@ TileRegions labelCells(const TileRegions& regions,
   CellField field(regions, pyramid[0], noise, parameters);
   field.sweep(threads);
 
-  const std::vector<TileSums> sums =
+  const FrameVector<TileSums> sums =
       sumLabels(pyramid, field.labels(), regions.planes.size(), threads);
   TileRegions out;
-  std::vector<int> id(sums.size(), NONE);
+  FrameVector<int> id(sums.size(), NONE);
   for (std::size_t k = 0; k < sums.size(); ++k) {
     const FittedPlane plane = fitSums(sums[k]);
     if (!isPlane(plane, 0.5 * parameters.min_points, noise, parameters))

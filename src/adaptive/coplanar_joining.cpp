@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "adaptive/cell_runs.h"
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_graph.h"
+#include "frame_memory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -15,14 +18,19 @@ struct Cell {
   int column, row;
 };
 
-/// Some cells that follow each other in memory.
-struct CellRange {
-  const Cell* first;
-  const Cell* last; ///< one past the end
+/// Some cells of a row, half open.
+struct Span {
+  int begin, end, row;
+};
 
-  const Cell* begin() const { return first; }
-  const Cell* end() const { return last; }
-  std::size_t size() const { return static_cast<std::size_t>(last - first); }
+/// Cells of a region, in runs that follow each other in memory.
+struct SpanRange {
+  const Span* first;
+  const Span* last; ///< one past the end
+  int cells;
+
+  const Span* begin() const { return first; }
+  const Span* end() const { return last; }
 };
 
 /// The cells of each region, row by row.
@@ -30,32 +38,41 @@ class RegionCells {
 public:
   RegionCells(const TileRegions& regions, const TileLevel& cells)
   : starts_(regions.planes.size() + 1, 0)
+  , cells_(regions.planes.size(), 0)
   {
+    const CellRuns runs(regions.cell_region, cells, {0, cells.rows});
+    const auto forEachRun = [&](const auto& visit) {
+      for (int r = 0; r < cells.rows; ++r)
+        for (const CellRun* run = runs.begin(r); run != runs.end(r); ++run)
+          if (run->region >= 0)
+            visit(static_cast<std::size_t>(run->region), *run, r);
+    };
     // Counting sort; where a region is to start is where it ends once it is filled.
-    std::vector<std::size_t> filled(starts_);
-    for (const int id : regions.cell_region)
-      if (id >= 0)
-        ++filled[static_cast<std::size_t>(id)];
+    FrameVector<std::size_t> filled(starts_);
+    forEachRun([&](std::size_t k, const CellRun& run, int) {
+      ++filled[k];
+      cells_[k] += run.end - run.begin;
+    });
     for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
       starts_[k + 1] = starts_[k] + filled[k];
       filled[k] = starts_[k];
     }
-    cells_.resize(starts_.back());
-    for (int r = 0; r < cells.rows; ++r)
-      for (int c = 0; c < cells.columns; ++c)
-        if (const int id = regions.cell_region[cells.at(c, r)]; id >= 0)
-          cells_[filled[static_cast<std::size_t>(id)]++] = {c, r};
+    spans_.resize(starts_.back());
+    forEachRun([&](std::size_t k, const CellRun& run, int r) {
+      spans_[filled[k]++] = {run.begin, run.end, r};
+    });
   }
 
-  CellRange of(int region) const
+  SpanRange of(int region) const
   {
     const auto k = static_cast<std::size_t>(region);
-    return {cells_.data() + starts_[k], cells_.data() + starts_[k + 1]};
+    return {spans_.data() + starts_[k], spans_.data() + starts_[k + 1], cells_[k]};
   }
 
 private:
-  std::vector<std::size_t> starts_;
-  std::vector<Cell> cells_;
+  FrameVector<std::size_t> starts_;
+  FrameVector<int> cells_; ///< number of each region's
+  FrameVector<Span> spans_;
 };
 
 /// What lies between two regions of the image.
@@ -89,17 +106,21 @@ public:
   /// the parts stands in front, so the surface may well go on behind it.
   bool mayHidePlane(int a, int b, const FittedPlane& plane, double tolerance) const
   {
-    constexpr std::size_t WALKS = 12;
-    const CellRange from = members_.of(a);
-    const CellRange to = members_.of(b);
+    constexpr int WALKS = 12;
+    const SpanRange from = members_.of(a);
+    const SpanRange to = members_.of(b);
     Walked walked;
     int gap = std::numeric_limits<int>::max();
-    const std::size_t stride = std::max<std::size_t>(1, from.size() / WALKS);
-    for (std::size_t k = stride / 2; k < from.size(); k += stride) {
-      const Cell& cell = from.first[k];
-      const Cell& nearest = nearestOf(to, cell);
-      gap = std::min(gap, squaredDistance(cell, nearest));
-      walk(plane, tolerance, cell, nearest, walked);
+    const int stride = std::max(1, from.cells / WALKS);
+    int next = stride / 2; // cell to start from
+    for (const Span& span : from) {
+      for (; next < span.end - span.begin; next += stride) {
+        const Cell cell = {span.begin + next, span.row};
+        const Cell nearest = nearestOf(to, cell);
+        gap = std::min(gap, squaredDistance(cell, nearest));
+        walk(plane, tolerance, cell, nearest, walked);
+      }
+      next -= span.end - span.begin;
     }
     return walked.off_plane <= parameters_.join_seen * walked.points &&
            gap <= widest(a, b);
@@ -115,15 +136,14 @@ private:
     Cell low, high;
   };
 
-  static Box boxOf(const CellRange& cells)
+  static Box boxOf(const SpanRange& spans)
   {
     constexpr int FAR = 1 << 14; // cells
     Box box = {{FAR, FAR}, {-FAR, -FAR}};
-    for (const Cell& cell : cells) {
-      box.low = {std::min(box.low.column, cell.column),
-                 std::min(box.low.row, cell.row)};
-      box.high = {std::max(box.high.column, cell.column),
-                  std::max(box.high.row, cell.row)};
+    for (const Span& span : spans) {
+      box.low = {std::min(box.low.column, span.begin), std::min(box.low.row, span.row)};
+      box.high = {std::max(box.high.column, span.end - 1),
+                  std::max(box.high.row, span.row)};
     }
     return box;
   }
@@ -131,8 +151,7 @@ private:
   /// Widest gap that may be joined over, squared, in cells.
   double widest(int a, int b) const
   {
-    const auto smaller =
-        static_cast<double>(std::min(members_.of(a).size(), members_.of(b).size()));
+    const double smaller = std::min(members_.of(a).cells, members_.of(b).cells);
     return parameters_.join_gap * parameters_.join_gap * smaller;
   }
 
@@ -143,12 +162,19 @@ private:
     return dx * dx + dy * dy;
   }
 
-  static const Cell& nearestOf(const CellRange& cells, const Cell& to)
+  /// The first of the nearest cells.
+  static Cell nearestOf(const SpanRange& spans, const Cell& to)
   {
-    return *std::min_element(cells.begin(), cells.end(),
-                             [&](const Cell& a, const Cell& b) {
-                               return squaredDistance(a, to) < squaredDistance(b, to);
-                             });
+    Cell nearest = {0, 0};
+    int least = std::numeric_limits<int>::max();
+    for (const Span& span : spans) {
+      const Cell cell = {std::clamp(to.column, span.begin, span.end - 1), span.row};
+      if (const int distance = squaredDistance(cell, to); distance < least) {
+        least = distance;
+        nearest = cell;
+      }
+    }
+    return nearest;
   }
 
   int middle(int cell, int size) const
@@ -185,7 +211,7 @@ private:
   int side_;
   const AdaptiveParameters& parameters_;
   RegionCells members_;
-  std::vector<Box> boxes_;
+  FrameVector<Box> boxes_;
 };
 
 } // namespace
@@ -207,7 +233,7 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
     return dissimilarity(regions.plane(a), regions.plane(b), joint, noise, parameters);
   };
 
-  std::vector<Candidate> pairs;
+  FrameVector<Candidate> pairs;
   for (int a = 0; a < regions.size(); ++a)
     for (int b = a + 1; b < regions.size(); ++b) {
       if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||

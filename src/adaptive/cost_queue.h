@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "frame_memory.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -60,8 +62,8 @@ private:
     return bits(std::max(cost, LEAST)) - bits(LEAST);
   }
 
-  std::vector<std::uint32_t> newest_; ///< of each bucket
-  std::vector<std::uint32_t> older_;  ///< the next of the same bucket, by number
+  FrameVector<std::uint32_t> newest_; ///< of each bucket
+  FrameVector<std::uint32_t> older_;  ///< the next of the same bucket, by number
   std::size_t first_;                 ///< no bucket before it holds any
 };
 

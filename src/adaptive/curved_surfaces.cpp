@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/curved_surfaces.h"
 #include "adaptive/plane_evidence.h"
+#include "adaptive/region_borders.h"
 #include "adaptive/surface_bend.h"
-#include "threads.h"
-
-#include <boost/container/flat_map.hpp>
+#include "adaptive/surrounded_facets.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -16,111 +17,6 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 constexpr double DEGREE = 3.14159265358979323846 / 180.0;
-
-/// Where two regions meet.
-struct Border {
-  int length = 0; ///< points
-  double step =
-      0; ///< sum of squared distances across, the smaller one of both ways, m^2
-};
-
-/// Borders by the regions on either side, the smaller number first.
-using Borders = boost::container::flat_map<std::pair<int, int>, Border>;
-
-/// Looks across every change of label, at points so far apart that the smoothing of edges by
-/// the sensor does not count.
-class BorderFinder {
-public:
-  BorderFinder(const OrganizedPoints& points, const FittedRegions& regions,
-               const std::vector<std::uint16_t>& labels, double sharpest_crease)
-  : goes_on(regions.planes.size(), 0)
-  , points_(points)
-  , regions_(regions)
-  , labels_(labels)
-  , sine_(std::sin(sharpest_crease))
-  {}
-
-  /// Looks across the borders of some rows' runs, half open.
-  void look(const LabelRuns& image, int first_row, int last_row)
-  {
-    const std::size_t width = image.width;
-    const std::size_t last = image.rows[static_cast<std::size_t>(last_row)];
-    for (std::size_t r = image.rows[static_cast<std::size_t>(first_row)]; r < last;
-         ++r) {
-      const LabelRun& run = image.runs[r];
-      if (run.label == 0)
-        continue;
-      const std::size_t row_end = (run.begin / width + 1) * width;
-      if (run.end - 1 + REACH < row_end)
-        look(run.label, run.end - 1, run.end - 1 + REACH);
-      if (row_end + (REACH - 1) * width >= labels_.size())
-        continue;
-      const std::uint16_t* below = labels_.data() + width;
-      for (std::size_t i = run.begin;
-           (i = findOther(run.label, below, i, run.end)) < run.end; ++i)
-        look(run.label, i, i + REACH * width);
-    }
-  }
-
-  BorderFinder& operator+=(const BorderFinder& other)
-  {
-    for (const auto& [pair, border] : other.borders) {
-      borders[pair].length += border.length;
-      borders[pair].step += border.step;
-    }
-    for (std::size_t k = 0; k < goes_on.size(); ++k)
-      goes_on[k] += other.goes_on[k];
-    return *this;
-  }
-
-  Borders borders;
-  /// Border points of each region beyond which the surface goes on in a shallow crease, but
-  /// is on no plane.
-  std::vector<int> goes_on;
-
-private:
-  static constexpr std::size_t REACH = 3;
-
-  void look(std::uint16_t label, std::size_t i, std::size_t j)
-  {
-    if (label == labels_[j] || points_.valid[j] == 0)
-      return;
-    const double across = distance(label - 1, j);
-    if (labels_[j] == 0) {
-      goes_on[label - 1U] += isShallow(across, i, j) ? 1 : 0;
-      return;
-    }
-    const std::pair<int, int> pair = std::minmax(label - 1, labels_[j] - 1);
-    if (border_ == nullptr || pair != pair_) { // mostly the same as the last time
-      pair_ = pair;
-      border_ = &borders[pair];
-    }
-    const double back = distance(labels_[j] - 1, i);
-    ++border_->length;
-    border_->step += std::min(across * across, back * back);
-  }
-
-  /// Whether the surface goes on to a point in a crease no sharper than that of a fan.
-  bool isShallow(double height, std::size_t i, std::size_t j) const
-  {
-    const Eigen::Vector3d way(points_.x[j] - points_.x[i], points_.y[j] - points_.y[i],
-                              points_.z[j] - points_.z[i]);
-    return height * height <= sine_ * sine_ * way.squaredNorm();
-  }
-
-  double distance(int region, std::size_t i) const
-  {
-    return regions_.planes[static_cast<std::size_t>(region)].distance(
-        points_.x[i], points_.y[i], points_.z[i]);
-  }
-
-  const OrganizedPoints& points_;
-  const FittedRegions& regions_;
-  const std::vector<std::uint16_t>& labels_;
-  double sine_;
-  std::pair<int, int> pair_ = {-1, -1};
-  Border* border_ = nullptr;
-};
 
 /// True for two smaller regions that meet along a long border, in a shallow crease and
 /// without a step: facets of one curved surface.
@@ -141,29 +37,43 @@ bool isFold(const FittedPlane& a, const FittedPlane& b, const Border& border,
          parameters.fan_gap * parameters.fan_gap * allowed;
 }
 
-/// Number of regions in the row of folds that each region belongs to.
-std::vector<int> fanSizes(const Borders& borders, const FittedRegions& regions,
-                          double largest, const NoiseLaw& noise,
-                          const AdaptiveParameters& parameters)
+/// The folds between regions of at most so many points.
+FrameVector<Fold> findFolds(const RegionBorders& borders, const FittedRegions& regions,
+                            double largest, const NoiseLaw& noise,
+                            const AdaptiveParameters& parameters)
 {
-  std::vector<std::size_t> parent(regions.planes.size());
+  FrameVector<Fold> folds;
+  for (const auto& [pair, border] : borders.between) {
+    const auto a = static_cast<std::size_t>(pair.first);
+    const auto b = static_cast<std::size_t>(pair.second);
+    if (isFold(regions.planes[a], regions.planes[b], border, largest, noise,
+               parameters))
+      folds.push_back({a, b, border.length});
+  }
+  return folds;
+}
+
+/// Number of regions in the row of folds that each region belongs to.
+/// \param[in] largest regions of more points are in none
+FrameVector<int> fanSizes(const FrameVector<Fold>& folds, const FittedRegions& regions,
+                          double largest)
+{
+  FrameVector<std::size_t> parent(regions.planes.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto find = [&](std::size_t k) {
     while (parent[k] != k)
       k = parent[k];
     return k;
   };
-  for (const auto& [pair, border] : borders) {
-    const auto a = static_cast<std::size_t>(pair.first);
-    const auto b = static_cast<std::size_t>(pair.second);
-    if (isFold(regions.planes[a], regions.planes[b], border, largest, noise,
-               parameters))
-      parent[std::max(find(a), find(b))] = std::min(find(a), find(b));
-  }
-  std::vector<int> members(parent.size(), 0);
+  for (const Fold& fold : folds)
+    if (std::max(regions.planes[fold.a].n, regions.planes[fold.b].n) <= largest) {
+      const std::size_t a = find(fold.a), b = find(fold.b);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  FrameVector<int> members(parent.size(), 0);
   for (std::size_t k = 0; k < parent.size(); ++k)
     ++members[find(k)];
-  std::vector<int> sizes(parent.size());
+  FrameVector<int> sizes(parent.size());
   for (std::size_t k = 0; k < parent.size(); ++k)
     sizes[k] = members[find(k)];
   return sizes;
@@ -186,22 +96,22 @@ public:
   , largest_(parameters.fan_share * static_cast<double>(points.countValid()))
   , bends_(measureBends(points, image.runs, regions.planes, threads))
   {
-    BorderFinder finder = sumOfBands(
-        points.height, threads,
-        BorderFinder(points, regions, image.labels, parameters.fan_angle * DEGREE),
-        [&](int first, int last, BorderFinder& found) {
-          found.look(image.runs, first, last);
-        });
-    fan_ = fanSizes(finder.borders, regions, largest_, noise, parameters);
-    wide_fan_ = fanSizes(finder.borders, regions, WIDE * largest_, noise, parameters);
-    goes_on_ = std::move(finder.goes_on);
+    const RegionBorders borders =
+        findBorders(points, regions, image, parameters.fan_angle * DEGREE, threads);
+    const FrameVector<Fold> folds =
+        findFolds(borders, regions, WIDE * largest_, noise, parameters);
+    fan_ = fanSizes(folds, regions, largest_);
+    wide_fan_ = fanSizes(folds, regions, WIDE * largest_);
+    surrounded_ = findSurroundedFacets(regions, borders, folds, parameters.fan_ring);
+    goes_on_ = borders.goes_on;
   }
 
   bool has(std::size_t region) const
   {
     return bendsItself(bends_[region]) ||
-           (parameters_.fan_parts > 0 && (fan_[region] >= parameters_.fan_parts ||
-                                          isFacet(region) || isWideFacet(region)));
+           (parameters_.fan_parts > 0 &&
+            (fan_[region] >= parameters_.fan_parts || isFacet(region) ||
+             isWideFacet(region) || surrounded_[region]));
   }
 
 private:
@@ -237,10 +147,11 @@ private:
   const FittedRegions& regions_;
   static constexpr double WIDE = 3.0; ///< points of a larger facet over those of one
   double largest_;                    ///< points of a facet
-  std::vector<Bend> bends_;
-  std::vector<int> fan_;
-  std::vector<int> wide_fan_;
-  std::vector<int> goes_on_;
+  FrameVector<Bend> bends_;
+  FrameVector<int> fan_;
+  FrameVector<int> wide_fan_;
+  FrameVector<bool> surrounded_;
+  FrameVector<int> goes_on_;
 };
 
 } // namespace
@@ -250,7 +161,7 @@ void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
                         LabelledPoints& image, unsigned int threads)
 {
   const CurvedSurfaces curved(points, image, noise, parameters, regions, threads);
-  std::vector<std::uint16_t> id(regions.planes.size() + 1, 0);
+  FrameVector<std::uint16_t> id(regions.planes.size() + 1, 0);
   FittedRegions kept;
   for (std::size_t k = 0; k < regions.planes.size(); ++k)
     if (!curved.has(k) && isEvident(regions.planes[k], parameters)) {

@@ -10,6 +10,7 @@
 #include "adaptive/noise_estimation.h"
 #include "adaptive/plane_evidence.h"
 #include "adaptive/tile_pyramid.h"
+#include "frame_memory.h"
 
 #include <Eigen/Dense>
 
@@ -58,10 +59,10 @@ int firstRegion(const std::uint16_t* labels, std::size_t width, std::size_t colu
 }
 
 /// That of each cell: enough to say what is near.
-std::vector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& points,
+FrameVector<int> cellRegions(const TileLevel& cells, const OrganizedPoints& points,
                              const std::vector<std::uint16_t>& labels)
 {
-  std::vector<int> regions;
+  FrameVector<int> regions;
   regions.reserve(cells.at(0, cells.rows));
   const auto width = static_cast<std::size_t>(points.width);
   const auto height = static_cast<std::size_t>(points.height);
@@ -87,7 +88,9 @@ std::shared_ptr<const BlockNoise> findBlockNoise(const OrganizedPoints& points,
                              ? estimateNoise(pyramid, adaptive)
                              : statedNoise(parameters.noise, pyramid, adaptive);
   assignLocalNoise(pyramid, noise, adaptive);
-  return std::make_shared<const BlockNoise>(noise, pyramid[BLOCK_LEVEL]);
+  const auto found = std::make_shared<BlockNoise>();
+  found->assign(noise, pyramid[BLOCK_LEVEL]);
+  return found;
 }
 
 /// The cells of an image, without sums.
@@ -98,6 +101,23 @@ TileLevel emptyCells(const OrganizedPoints& points)
   cells.columns = (points.width + CELL - 1) / CELL;
   cells.rows = (points.height + CELL - 1) / CELL;
   return cells;
+}
+
+/// Gives each plane the mean noise of the cells that it has.
+void spreadNoise(const TileLevel& cells, const BlockNoise& noise, TileRegions& regions)
+{
+  const int columns = (cells.columns + 1) / 2; // of blocks
+  std::vector<double> count(regions.planes.size(), 0);
+  for (int row = 0; row < cells.rows; ++row)
+    for (int column = 0; column < cells.columns; ++column)
+      if (const int region = regions.cell_region[cells.at(column, row)]; region >= 0) {
+        const auto block = static_cast<std::size_t>(row / 2 * columns + column / 2);
+        const auto k = static_cast<std::size_t>(region);
+        regions.planes[k].noise += noise.blocks[block].variance();
+        ++count[k];
+      }
+  for (std::size_t k = 0; k < count.size(); ++k)
+    regions.planes[k].noise /= std::max(count[k], 1.0);
 }
 
 /// Labels of a row, and one that no point has on either side of it.
@@ -133,12 +153,13 @@ public:
   , noise_(result.block_noise ? result.block_noise : findBlockNoise(points, parameters))
   , label_rows_(3, LabelRow(width_))
   {
-    for (const PlaneRegion& region : result.regions) {
+    for (const PlaneRegion& region : result.regions)
       regions_.planes.push_back(fittedPlane(region));
-      scales_.push_back(labelScale(regions_.planes.back(), noise_->noise, parameters_));
-    }
     const TileLevel cells = emptyCells(points);
     regions_.cell_region = cellRegions(cells, points, labels_);
+    spreadNoise(cells, *noise_, regions_);
+    for (const FittedPlane& plane : regions_.planes)
+      scales_.push_back(labelScale(plane, noise_->noise, parameters_));
     blocks_ = findCandidates(regions_, cells, points.width, points.height, REACH);
     const std::size_t padded = static_cast<std::size_t>(blocks_.columns) * SIDE;
     per_step_.resize(padded);
@@ -253,7 +274,7 @@ private:
   std::size_t width_;
   std::shared_ptr<const BlockNoise> noise_;
   TileRegions regions_;
-  std::vector<LabelScale> scales_;
+  FrameVector<LabelScale> scales_;
   CandidateBlocks blocks_;
   // of the row of blocks, and the row of points, at hand; as wide as whole blocks
   std::vector<float> per_step_;

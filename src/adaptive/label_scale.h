@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "adaptive/flatness.h"
 #include "adaptive/plane_merging.h"
 
 namespace pcl_mrf_planes::adaptive {
@@ -16,8 +17,7 @@ inline LabelScale labelScale(const FittedPlane& plane, const NoiseLaw& noise,
                              const AdaptiveParameters& parameters)
 {
   const double growth = noise.growthOf(plane.n);
-  const double bend =
-      std::min(parameters.flatness * plane.extent, parameters.max_flatness);
+  const double bend = flatnessOf(plane, parameters);
   return {
       static_cast<float>(plane.normal.x()),     static_cast<float>(plane.normal.y()),
       static_cast<float>(plane.normal.z()),     static_cast<float>(plane.d),

@@ -3,6 +3,7 @@
 // The noise of each tile: the law of the cloud, raised where the tiles around all show more.
 #include "adaptive/noise_estimation.h"
 #include "adaptive/tile_rms.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -13,9 +14,9 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 /// Noise of the points of each tile over that of the whole cloud; 0 where it has no plane.
-std::vector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise)
+FrameVector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise)
 {
-  std::vector<double> ratios(level.planes.size(), 0.0);
+  FrameVector<double> ratios(level.planes.size(), 0.0);
   for (std::size_t i = 0; i < ratios.size(); ++i)
     if (const FittedPlane& p = level.planes[i]; p.n > 3)
       ratios[i] = unbiasedRms(p) / noise.small(p.centroid.norm());
@@ -58,24 +59,24 @@ private:
   }
 
   std::size_t stride_;
-  std::vector<int> sums_;
+  FrameVector<int> sums_;
 };
 
 /// Noise around each square of 2x2 tiles of a level over that of the whole cloud: a low
 /// percentile of the tiles near, so that edges do not count.
-std::vector<double> localFactors(const TileLevel& level, const TileLevel& squares,
+FrameVector<double> localFactors(const TileLevel& level, const TileLevel& squares,
                                  const NoiseLaw& noise,
                                  const AdaptiveParameters& parameters,
                                  unsigned int threads)
 {
   constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
-  const std::vector<double> ratios = noiseRatios(level, noise);
+  const FrameVector<double> ratios = noiseRatios(level, noise);
   const TileCounts with_plane(level, [&](std::size_t i) { return ratios[i] > 0; });
   const TileCounts quiet(
       level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
-  std::vector<double> factors(squares.at(0, squares.rows), 1.0);
-  const auto findRow = [&](int r, std::vector<double>& around) {
+  FrameVector<double> factors(squares.at(0, squares.rows), 1.0);
+  const auto findRow = [&](int r, FrameVector<double>& around) {
     for (int c = 0; c < squares.columns; ++c) {
       const TileWindow window = {
           std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
@@ -94,7 +95,7 @@ std::vector<double> localFactors(const TileLevel& level, const TileLevel& square
   };
   const Bands bands(squares.rows);
   parallelParts(bands.count, threads, [&](int band) {
-    std::vector<double> around;
+    FrameVector<double> around;
     for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
       findRow(r, around);
   });
@@ -128,7 +129,7 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
   TileLevel squares;
   squares.columns = (pyramid[BASE].columns + 1) / 2;
   squares.rows = (pyramid[BASE].rows + 1) / 2;
-  const std::vector<double> factors =
+  const FrameVector<double> factors =
       localFactors(pyramid[BASE], squares, noise, parameters, threads);
   TileLevel& cells = pyramid[0];
   parallelRows(cells.rows, threads, [&](int r) {

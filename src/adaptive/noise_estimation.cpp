@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/noise_estimation.h"
 #include "adaptive/tile_rms.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ struct Sample {
 /// that is rounded to steps hides the noise within one. A tile that a step of depth crosses
 /// shows an eighth to a half of it, so these are quiet enough for each other. Orders the numbers
 /// as it needs.
-double typicalRms(std::vector<double>& rms, double p, double z)
+double typicalRms(FrameVector<double>& rms, double p, double z)
 {
   constexpr std::size_t FEWEST = 60; // tiles for a low percentile
   constexpr double QUIETEST = 0.2;   // of the percentile
@@ -40,7 +41,7 @@ double typicalRms(std::vector<double>& rms, double p, double z)
 }
 
 /// rms = a + c z^2 over depth bins, relative least squares, a and c not negative
-void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
+void fitDepthLaw(FrameVector<Sample> samples, double p, NoiseLaw& noise)
 {
   if (samples.empty())
     return;
@@ -49,7 +50,7 @@ void fitDepthLaw(std::vector<Sample> samples, double p, NoiseLaw& noise)
   });
   const std::size_t bins = std::min<std::size_t>(8, 1 + samples.size() / 40);
   double s00 = 0, s01 = 0, s11 = 0, b0 = 0, b1 = 0;
-  std::vector<double> rms;
+  FrameVector<double> rms;
   rms.reserve(samples.size() / bins + 1);
   for (std::size_t k = 0; k < bins; ++k) {
     const std::size_t i0 = k * samples.size() / bins;
@@ -169,7 +170,7 @@ struct TileRow {
 /// of the tile over that of its quarters.
 void addGrowthRatios(const TileLevel& level, const TileLevel& below, TileRow row,
                      double known_growth, const NoiseLaw& noise,
-                     const AdaptiveParameters& parameters, std::vector<double>& ratios)
+                     const AdaptiveParameters& parameters, FrameVector<double>& ratios)
 {
   for (int c = 0; c < level.columns; c += row.step) {
     const FittedPlane& parent = level.planes[level.at(c, row.number)];
@@ -185,7 +186,7 @@ void addGrowthRatios(const TileLevel& level, const TileLevel& below, TileRow row
 }
 
 /// Growth of the rms distance from tiles' quarters to the tiles.
-std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
+FrameVector<double> growthRatios(const TileLevel& level, const TileLevel& below,
                                  double known_growth, const NoiseLaw& noise,
                                  const AdaptiveParameters& parameters,
                                  unsigned int threads)
@@ -193,17 +194,17 @@ std::vector<double> growthRatios(const TileLevel& level, const TileLevel& below,
   // The smallest tiles have no planes yet; some of them tell enough.
   const int step = below.planes.empty() ? 3 : 1;
   const Bands bands((level.rows + step - 1) / step, 4);
-  std::vector<std::vector<double>> parts(static_cast<std::size_t>(bands.count));
+  FrameVector<FrameVector<double>> parts(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {
-    std::vector<double>& ratios = parts[static_cast<std::size_t>(band)];
+    FrameVector<double>& ratios = parts[static_cast<std::size_t>(band)];
     ratios.reserve(level.planes.size() / parts.size());
     const int end = std::min(level.rows, step * bands.begin(band + 1));
     for (int r = step * bands.begin(band); r < end; r += step)
       addGrowthRatios(level, below, {r, step}, known_growth, noise, parameters, ratios);
   });
-  std::vector<double> ratios;
+  FrameVector<double> ratios;
   ratios.reserve(level.planes.size());
-  for (const std::vector<double>& part : parts)
+  for (const FrameVector<double>& part : parts)
     ratios.insert(ratios.end(), part.begin(), part.end());
   return ratios;
 }
@@ -214,10 +215,10 @@ void estimateGrowth(const std::vector<TileLevel>& pyramid,
                     NoiseLaw& noise)
 {
   constexpr std::size_t FEWEST = 12; // ratios for a percentile
-  std::vector<double> step(pyramid.size(), 1.0);
+  FrameVector<double> step(pyramid.size(), 1.0);
   double cumulated = 1;
   for (std::size_t l = 1; l < pyramid.size(); ++l) {
-    std::vector<double> ratios =
+    FrameVector<double> ratios =
         growthRatios(pyramid[l], pyramid[l - 1], cumulated, noise, parameters, threads);
     if (ratios.size() >= FEWEST)
       step[l] = std::clamp(percentile(ratios, parameters.growth_percentile), 1.0,
@@ -243,7 +244,7 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
   constexpr std::size_t ENOUGH = 2000; // samples
   NoiseLaw noise;
   noise.floor = parameters.min_sigma;
-  std::vector<Sample> samples;
+  FrameVector<Sample> samples;
   samples.reserve(2 * ENOUGH);
   const std::vector<FittedPlane>& planes = pyramid[BASE].planes;
   // An odd step goes through all columns.

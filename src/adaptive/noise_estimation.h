@@ -4,6 +4,8 @@
 
 #include <pcl_mrf_planes/noise_model.h>
 
+#include <boost/container/static_vector.hpp>
+
 namespace pcl_mrf_planes::adaptive {
 
 /** \brief Noise of a plane as a function of distance and extent.
@@ -16,7 +18,7 @@ struct NoiseLaw {
   double b = 0; ///< of a stated sigma only
   double c = 0;
   double floor = 0; ///< [m at 1 m]
-  std::vector<double> growth;
+  boost::container::static_vector<double, MOST_LEVELS> growth;
   double region = 1;
 
   double small(double z) const

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/plane_merging.h"
+#include "adaptive/cell_runs.h"
 #include "adaptive/cost_queue.h"
+#include "adaptive/flatness.h"
 #include "adaptive/region_graph.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -16,7 +19,7 @@ double allowedVariance(const FittedPlane& plane, const NoiseLaw& noise,
                        const AdaptiveParameters& p)
 {
   const double g = noise.growthOf(plane.n);
-  const double f = std::min(p.flatness * plane.extent, p.max_flatness);
+  const double f = flatnessOf(plane, p);
   return g * g * plane.noise * incidenceFactor(plane) + f * f;
 }
 
@@ -29,26 +32,44 @@ bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
 
 namespace {
 
-/// Tiles that lie side by side in some rows of cells.
-void linkInside(const std::vector<int>& cell_region, const TileLevel& cells,
+void linkTiles(int a, int b, Regions& regions)
+{
+  if (a >= 0 && b >= 0 && a != b)
+    regions.touch(a, b);
+}
+
+/// Tiles that lie side by side in some rows of cells, in the order of the cells: each one
+/// touches what lies to its right, then what lies below.
+void linkInside(const FrameVector<int>& cell_region, const TileLevel& cells,
                 TileRows rows, Regions& regions)
 {
-  const auto touch = [&](int a, int b) {
-    if (a >= 0 && b >= 0 && a != b)
-      regions.touch(a, b);
-  };
-  for (int r = rows.begin; r < rows.end; ++r)
-    for (int c = 0; c < cells.columns; ++c) {
-      const int a = cell_region[cells.at(c, r)];
-      if (c + 1 < cells.columns)
-        touch(a, cell_region[cells.at(c + 1, r)]);
-      if (r + 1 < rows.end)
-        touch(a, cell_region[cells.at(c, r + 1)]);
+  const CellRuns runs(cell_region, cells, rows);
+  for (int r = rows.begin; r < rows.end; ++r) {
+    const bool last = r + 1 == rows.end;
+    const CellRun* below = last ? nullptr : runs.begin(r + 1);
+    for (const CellRun* run = runs.begin(r); run != runs.end(r); ++run) {
+      const int right = run + 1 != runs.end(r) ? run[1].region : -1;
+      if (last) {
+        linkTiles(run->region, right, regions);
+        continue;
+      }
+      for (; below->end < run->end; ++below)
+        linkTiles(run->region, below->region, regions);
+      // It lies below the last cell only.
+      const bool alone = std::max(below->begin, run->begin) == run->end - 1;
+      if (!alone)
+        linkTiles(run->region, below->region, regions);
+      linkTiles(run->region, right, regions);
+      if (alone)
+        linkTiles(run->region, below->region, regions);
+      if (below->end == run->end)
+        ++below;
     }
+  }
 }
 
 /// Regions on either side of the border above a row of cells.
-void linkAcross(const std::vector<int>& cell_region, const TileLevel& cells, int row,
+void linkAcross(const FrameVector<int>& cell_region, const TileLevel& cells, int row,
                 Regions& regions)
 {
   for (int c = 0; c < cells.columns; ++c) {
@@ -60,14 +81,14 @@ void linkAcross(const std::vector<int>& cell_region, const TileLevel& cells, int
 }
 
 /// The tiles of some rows of cells, in the order of their numbers.
-std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& cells,
+FrameVector<int> tilesIn(const FrameVector<int>& cell_region, const TileLevel& cells,
                          TileRows rows, std::size_t tiles)
 {
-  std::vector<std::uint8_t> is_in(tiles, 0);
+  FrameVector<std::uint8_t> is_in(tiles, 0);
   for (std::size_t cell = cells.at(0, rows.begin); cell < cells.at(0, rows.end); ++cell)
     if (cell_region[cell] >= 0)
       is_in[static_cast<std::size_t>(cell_region[cell])] = 1;
-  std::vector<int> found;
+  FrameVector<int> found;
   found.reserve(tiles);
   for (std::size_t tile = 0; tile < tiles; ++tile)
     if (is_in[tile] != 0)
@@ -79,7 +100,7 @@ std::vector<int> tilesIn(const std::vector<int>& cell_region, const TileLevel& c
 class Agglomeration {
 public:
   /// \param[in] tiles none but these have neighbours
-  Agglomeration(Regions& regions, std::vector<int> tiles, const NoiseLaw& noise,
+  Agglomeration(Regions& regions, FrameVector<int> tiles, const NoiseLaw& noise,
                 const AdaptiveParameters& parameters, unsigned int threads)
   : regions_(regions)
   , tiles_(std::move(tiles))
@@ -88,6 +109,7 @@ public:
   , threads_(threads)
   , limit_(parameters.merge_tolerance * parameters.merge_tolerance)
   , queue_(static_cast<float>(limit_))
+  , offered_(static_cast<std::size_t>(regions.size()), 0)
   {
     pairs_.reserve(PAIRS * tiles_.size());
     joint_.reserve(PAIRS * tiles_.size());
@@ -127,16 +149,19 @@ private:
     float cost;
   };
 
-  /// Offers all pairs of neighbours, as if one after the other.
+  /// Offers all pairs of neighbours, as if one after the other, but for those that neither
+  /// has grown since they were found too different.
   void offerAll()
   {
     pairs_.clear();
     for (const int a : tiles_)
       if (regions_.find(a) == a)
         regions_.forEachNeighbour(a, ++mark_, [&](int b) {
-          if (a < b)
+          if (a < b && (grew(a) || grew(b)))
             pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
         });
+    for (const int a : tiles_)
+      offered_[static_cast<std::size_t>(a)] = regions_.tiles(a);
     joint_.resize(pairs_.size());
     const auto batches = static_cast<int>((pairs_.size() + AT_ONCE - 1) / AT_ONCE);
     parallelParts(batches, threads_, [&](int batch) {
@@ -169,6 +194,11 @@ private:
         consider();
     }
     return false;
+  }
+
+  bool grew(int region) const
+  {
+    return offered_[static_cast<std::size_t>(region)] != regions_.tiles(region);
   }
 
   void offer(int a, int b)
@@ -212,15 +242,16 @@ private:
   }
 
   Regions& regions_;
-  std::vector<int> tiles_;
+  FrameVector<int> tiles_;
   int mark_ = 0; ///< of the last walk through neighbours
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
   unsigned int threads_;
   double limit_;
   CostQueue queue_;
-  std::vector<Pair> pairs_;        ///< in the order in which they were offered
-  std::vector<FittedPlane> joint_; ///< plane of both
+  FrameVector<int> offered_;       ///< tiles of each region when it was last offered
+  FrameVector<Pair> pairs_;        ///< in the order in which they were offered
+  FrameVector<FittedPlane> joint_; ///< plane of both
   std::size_t looked_at_ = 0;      ///< so many pairs, the first
 };
 
@@ -232,7 +263,7 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
 {
   const TileLevel& cells = pyramid[0];
   const std::size_t count = tiles.planes.size();
-  std::vector<int> cell_region = std::move(tiles.cell_region);
+  FrameVector<int> cell_region = std::move(tiles.cell_region);
   Regions regions(std::move(tiles));
   // Between the halves of the image nothing merges before each of them is done.
   const Bands halves(pyramid.back().rows, 2);
@@ -242,7 +273,7 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
   };
   for (int half = 0; half < halves.count; ++half)
     linkInside(cell_region, cells, rows(half), regions);
-  std::vector<int> marks(static_cast<std::size_t>(halves.count), 0);
+  FrameVector<int> marks(static_cast<std::size_t>(halves.count), 0);
   parallelParts(halves.count, threads, [&](int half) {
     Agglomeration agglomeration(regions, tilesIn(cell_region, cells, rows(half), count),
                                 noise, parameters, 1);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "adaptive/noise_estimation.h"
+#include "frame_memory.h"
 
 namespace pcl_mrf_planes::adaptive {
 
 /** \brief Planes and the sums of their points. */
 struct FittedRegions {
-  std::vector<TileSums> sums;
-  std::vector<FittedPlane> planes;
+  FrameVector<TileSums> sums;
+  FrameVector<FittedPlane> planes;
 
   void add(const FittedPlane& plane, const TileSums& sum)
   {
@@ -18,7 +19,7 @@ struct FittedRegions {
 
 /** \brief Planes found, and which plane each smallest tile belongs to (-1: none). */
 struct TileRegions : FittedRegions {
-  std::vector<int> cell_region; ///< per tile of level 0
+  FrameVector<int> cell_region; ///< per tile of level 0
 };
 
 /** \brief Variance that a plane of the given fit is allowed: noise and flatness [m^2]. */

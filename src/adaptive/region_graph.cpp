@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/region_graph.h"
+#include "frame_memory.h"
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -14,19 +15,21 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
   return std::max(0.0, growth) / std::min(a.n, b.n) / allowed;
 }
 
-TileRegions collect(Regions& regions, std::vector<int> cell_region, double least)
+TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least)
 {
   TileRegions out;
-  std::vector<int> id(static_cast<std::size_t>(regions.size()), -1);
+  FrameVector<int> id(static_cast<std::size_t>(regions.size()) + 1, -1);
+  const auto at = [&](int i) -> int& { return id[static_cast<std::size_t>(i + 1)]; };
   for (int i = 0; i < regions.size(); ++i)
     if (regions.find(i) == i && regions.sums(i).n >= least) {
-      id[static_cast<std::size_t>(i)] = static_cast<int>(out.planes.size());
+      at(i) = static_cast<int>(out.planes.size());
       out.planes.push_back(regions.plane(i));
       out.sums.push_back(regions.sums(i));
     }
+  for (int i = 0; i < regions.size(); ++i)
+    at(i) = at(regions.find(i));
   for (int& region : cell_region)
-    if (region >= 0)
-      region = id[static_cast<std::size_t>(regions.find(region))];
+    region = at(region); // none stays none
   out.cell_region = std::move(cell_region);
   return out;
 }

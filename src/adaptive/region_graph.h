@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adaptive/plane_merging.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -113,17 +114,17 @@ private:
   }
 
   template <typename T>
-  static T& at(std::vector<T>& v, int i)
+  static T& at(FrameVector<T>& v, int i)
   {
     return v[static_cast<std::size_t>(i)];
   }
 
-  std::vector<TileSums> sums_;
-  std::vector<FittedPlane> planes_;
-  std::vector<int> parent_, tiles_;
-  std::vector<List> lists_; ///< neighbours of each set
-  std::vector<Link> links_;
-  std::vector<int> marks_; ///< sets that the walk of this mark has met
+  FrameVector<TileSums> sums_;
+  FrameVector<FittedPlane> planes_;
+  FrameVector<int> parent_, tiles_;
+  FrameVector<List> lists_; ///< neighbours of each set
+  FrameVector<Link> links_;
+  FrameVector<int> marks_; ///< sets that the walk of this mark has met
 };
 
 /// A pair of regions to merge, as they were when it was looked at.
@@ -147,6 +148,6 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
                      const AdaptiveParameters& p);
 
 /// The sets that hold at least so many points, numbered in order.
-TileRegions collect(Regions& regions, std::vector<int> cell_region, double least);
+TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least);
 
 } // namespace pcl_mrf_planes::adaptive

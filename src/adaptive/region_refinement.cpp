@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/region_refinement.h"
+#include "frame_memory.h"
 #include "label_runs.h"
 #include "threads.h"
 
@@ -54,7 +55,7 @@ public:
     return *this;
   }
 
-  std::vector<TileSums> sums;
+  FrameVector<TileSums> sums;
 
 private:
   static constexpr int BLOCK = 2 * CELL; ///< side, points
@@ -120,7 +121,7 @@ private:
   const std::vector<std::uint16_t>& labels_;
 };
 
-std::vector<TileSums> sumLabels(const OrganizedPoints& points,
+FrameVector<TileSums> sumLabels(const OrganizedPoints& points,
                                 const std::vector<TileLevel>& pyramid,
                                 const std::vector<std::uint16_t>& labels,
                                 std::size_t count, unsigned int threads)
@@ -136,7 +137,7 @@ std::vector<TileSums> sumLabels(const OrganizedPoints& points,
 
 } // namespace
 
-void LabelledPoints::renumber(const std::vector<std::uint16_t>& id,
+void LabelledPoints::renumber(const FrameVector<std::uint16_t>& id,
                               unsigned int threads)
 {
   parallelRows(static_cast<int>(runs.rows.size()) - 1, threads, [&](int row) {
@@ -159,10 +160,10 @@ FittedRegions refineRegions(const OrganizedPoints& points,
   std::size_t count = 1;
   for (const LabelRun& run : image.runs.runs)
     count = std::max<std::size_t>(count, run.label + 1U);
-  const std::vector<TileSums> sums =
+  const FrameVector<TileSums> sums =
       sumLabels(points, pyramid, image.labels, count, threads);
   FittedRegions out;
-  std::vector<std::uint16_t> id(count, 0);
+  FrameVector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
     const FittedPlane plane = fitSums(sums[k]);
     if (!isPlane(plane, parameters.min_points, noise, parameters))

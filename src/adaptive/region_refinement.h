@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adaptive/plane_merging.h"
+#include "frame_memory.h"
 #include "label_runs.h"
 
 namespace pcl_mrf_planes::adaptive {
@@ -18,7 +19,7 @@ struct LabelledPoints {
   {}
 
   /** \brief Give every label its new number, id[label]; 0 takes it away. */
-  void renumber(const std::vector<std::uint16_t>& id, unsigned int threads = 1);
+  void renumber(const FrameVector<std::uint16_t>& id, unsigned int threads = 1);
 };
 
 /** \brief After labelling: small components of a label lose it, planes are fitted again

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/sampled_points.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ class LabelSpreading {
 public:
   LabelSpreading(const OrganizedPoints& points, const OrganizedPoints& samples,
                  const std::vector<std::uint16_t>& labels, int every,
-                 const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+                 const FrameVector<FittedPlane>& planes, const NoiseLaw& noise,
                  const AdaptiveParameters& parameters, std::vector<std::uint16_t>& out)
   : out_(out)
   , points_(points)
@@ -74,7 +75,7 @@ public:
   }
 
   /// \param wide working memory
-  void spreadRow(int row, std::vector<std::uint16_t>& wide)
+  void spreadRow(int row, FrameVector<std::uint16_t>& wide)
   {
     const std::uint16_t* above = rowOf(row);
     const std::uint16_t* below = rowOf(std::min(row + 1, samples_.height - 1));
@@ -119,7 +120,7 @@ private:
   }
 
   /// The labels of a row of samples, each as often as it stands for points.
-  void widen(const std::uint16_t* samples, std::vector<std::uint16_t>& wide) const
+  void widen(const std::uint16_t* samples, FrameVector<std::uint16_t>& wide) const
   {
     wide.resize(static_cast<std::size_t>(samples_.width) *
                 static_cast<std::size_t>(every_));
@@ -135,7 +136,7 @@ private:
   }
 
   /// The label of the sample to the left and above for all valid points of a row.
-  void copyRow(int v, const std::vector<std::uint16_t>& wide)
+  void copyRow(int v, const FrameVector<std::uint16_t>& wide)
   {
     const std::uint16_t* from = wide.data();
     std::uint16_t* to = &out_[at(0, v)];
@@ -217,7 +218,7 @@ private:
   const std::vector<std::uint16_t>& labels_;
   int every_;
   float none_;
-  std::vector<NearPlane> planes_;
+  FrameVector<NearPlane> planes_;
 };
 
 } // namespace
@@ -270,7 +271,7 @@ void samplePoints(const OrganizedPoints& points, int every, unsigned int threads
 std::vector<std::uint16_t>
 spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<std::uint16_t>& labels, int every,
-             const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+             const FrameVector<FittedPlane>& planes, const NoiseLaw& noise,
              const AdaptiveParameters& parameters, unsigned int threads)
 {
   std::vector<std::uint16_t> out;
@@ -280,7 +281,7 @@ spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
 
 void spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
                   const std::vector<std::uint16_t>& labels, int every,
-                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+                  const FrameVector<FittedPlane>& planes, const NoiseLaw& noise,
                   const AdaptiveParameters& parameters, unsigned int threads,
                   std::vector<std::uint16_t>& out)
 {
@@ -289,7 +290,7 @@ void spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
                            out);
   const Bands bands(samples.height);
   parallelParts(bands.count, threads, [&](int band) {
-    std::vector<std::uint16_t> wide;
+    FrameVector<std::uint16_t> wide;
     for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
       spreading.spreadRow(row, wide);
   });

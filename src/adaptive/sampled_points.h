@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adaptive/plane_merging.h"
+#include "frame_memory.h"
 
 #include <cstdint>
 #include <vector>
@@ -29,13 +30,13 @@ void samplePoints(const OrganizedPoints& points, int every, unsigned int threads
 std::vector<std::uint16_t>
 spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
              const std::vector<std::uint16_t>& labels, int every,
-             const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+             const FrameVector<FittedPlane>& planes, const NoiseLaw& noise,
              const AdaptiveParameters& parameters, unsigned int threads = 1);
 
 /** \brief The same into labels that are there already. */
 void spreadLabels(const OrganizedPoints& points, const OrganizedPoints& samples,
                   const std::vector<std::uint16_t>& labels, int every,
-                  const std::vector<FittedPlane>& planes, const NoiseLaw& noise,
+                  const FrameVector<FittedPlane>& planes, const NoiseLaw& noise,
                   const AdaptiveParameters& parameters, unsigned int threads,
                   std::vector<std::uint16_t>& out);
 

@@ -4,6 +4,7 @@
 #include "adaptive/sampled_points.h"
 #include "adaptive/stage_observer.h"
 #include "adaptive/workspace.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,7 +128,7 @@ private:
   const OrganizedPoints& points_;
   int every_;
   SegmentationStages& stages_;
-  std::vector<int> tile_of_cell_;
+  FrameVector<int> tile_of_cell_;
   std::vector<Plane> planes_; ///< of the regions seen last
   int rounds_ = 0;
   int sample_width_ = 0;

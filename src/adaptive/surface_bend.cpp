@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/surface_bend.h"
+#include "frame_memory.h"
 #include "threads.h"
 #include <Eigen/Dense>
 #include <cmath>
@@ -109,8 +110,8 @@ std::size_t stepOf(const FittedPlane& plane)
 
 } // namespace
 
-std::vector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& image,
-                               const std::vector<FittedPlane>& planes,
+FrameVector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& image,
+                               const FrameVector<FittedPlane>& planes,
                                unsigned int threads)
 {
   const auto addRun = [&](const LabelRun& run, std::size_t row, QuadricSums& sums) {
@@ -124,8 +125,8 @@ std::vector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& i
   };
   const auto sums =
       sumOfBands((points.height + 1) / 2, threads,
-                 std::vector<QuadricSums>(planes.begin(), planes.end()),
-                 [&](int first, int last, std::vector<QuadricSums>& of_rows) {
+                 FrameVector<QuadricSums>(planes.begin(), planes.end()),
+                 [&](int first, int last, FrameVector<QuadricSums>& of_rows) {
                    for (int pair = first; pair < last; ++pair) {
                      const std::size_t row = 2 * static_cast<std::size_t>(pair);
                      for (std::size_t k = image.rows[row]; k < image.rows[row + 1]; ++k)
@@ -133,7 +134,7 @@ std::vector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& i
                          addRun(run, row, of_rows[run.label - 1U]);
                    }
                  });
-  std::vector<Bend> bends;
+  FrameVector<Bend> bends;
   bends.reserve(sums.size());
   for (const QuadricSums& sum : sums)
     bends.push_back(sum.bend());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "adaptive/tile_sums.h"
+#include "frame_memory.h"
 #include "label_runs.h"
 
 #include <pcl_mrf_planes/organized_points.h>
@@ -16,8 +17,8 @@ struct Bend {
 /** \brief Bend of every region by the runs of its label; label k refers to planes[k - 1].
  * Every second point of every second row is used, of large regions half or a quarter of
  * these each way. O(points). */
-std::vector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& image,
-                               const std::vector<FittedPlane>& planes,
+FrameVector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& image,
+                               const FrameVector<FittedPlane>& planes,
                                unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -12,6 +12,9 @@ namespace pcl_mrf_planes::adaptive {
 /// Side of the smallest tiles, points.
 constexpr int CELL = 4;
 
+/// Levels that a pyramid may have.
+constexpr std::size_t MOST_LEVELS = 8;
+
 /// Level of the tiles that are the blocks of the random field.
 constexpr std::size_t BLOCK_LEVEL = 1;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adaptive/noise_estimation.h"
+#include "frame_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace pcl_mrf_planes::adaptive {
 constexpr std::size_t BASE = 1;
 
 /// The number that such a share of them is below; 0 of none. Orders the numbers as it needs.
-inline double percentile(std::vector<double>& v, double p)
+inline double percentile(FrameVector<double>& v, double p)
 {
   if (v.empty())
     return 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/plane_merging.h"
+#include "frame_memory.h"
 #include "threads.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ class TileSelection {
 public:
   /// \param cell_region region of each cell of the image, none yet in this part
   TileSelection(const TileLevel& cells, const NoiseLaw& noise,
-                const AdaptiveParameters& parameters, std::vector<int>& cell_region)
+                const AdaptiveParameters& parameters, FrameVector<int>& cell_region)
   : cells_(cells)
   , noise_(noise)
   , parameters_(parameters)
@@ -90,21 +91,21 @@ private:
   const TileLevel& cells_;
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
-  std::vector<int>& cell_region_;
+  FrameVector<int>& cell_region_;
   // of the row at hand
-  std::vector<int> free_;
-  std::vector<TileSums> sums_;
-  std::vector<FittedPlane> planes_;
+  FrameVector<int> free_;
+  FrameVector<TileSums> sums_;
+  FrameVector<FittedPlane> planes_;
 };
 
 /// Where the tiles of the levels lie among those that one part of the image selected.
-using LevelStarts = std::vector<std::size_t>;
+using LevelStarts = FrameVector<std::size_t>;
 
 /// Numbers the tiles of all parts anew: the largest first, those of one level part by part.
 class TileNumbering {
 public:
-  TileNumbering(std::vector<TileSelection>& parts,
-                const std::vector<LevelStarts>& starts)
+  TileNumbering(FrameVector<TileSelection>& parts,
+                const FrameVector<LevelStarts>& starts)
   : number_(parts.size())
   {
     for (std::size_t k = 0; k < parts.size(); ++k)
@@ -122,7 +123,7 @@ public:
   }
 
 private:
-  std::vector<std::vector<int>> number_;
+  FrameVector<FrameVector<int>> number_;
   int count_ = 0;
 };
 
@@ -141,9 +142,9 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
   };
   TileRegions out;
   out.cell_region.assign(cells.sums.size(), -1);
-  std::vector<TileSelection> parts(static_cast<std::size_t>(bands.count),
+  FrameVector<TileSelection> parts(static_cast<std::size_t>(bands.count),
                                    {cells, noise, parameters, out.cell_region});
-  std::vector<LevelStarts> starts(parts.size(), {0});
+  FrameVector<LevelStarts> starts(parts.size(), {0});
   parallelParts(bands.count, threads, [&](int band) {
     const auto part = static_cast<std::size_t>(band);
     parts[part].reserve(cells.sums.size() / parts.size() / FEW);

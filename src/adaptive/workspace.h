@@ -3,6 +3,7 @@
 
 #include "adaptive/candidate_field.h"
 #include "adaptive/tile_pyramid.h"
+#include "region_gathering.h"
 
 #include <pcl_mrf_planes/organized_points.h>
 
@@ -19,6 +20,7 @@ struct Workspace {
   FieldMemory field;
   BeliefMemory beliefs;
   std::vector<std::uint16_t> labels; ///< of the samples
+  RegionMemory regions;
 };
 
 } // namespace pcl_mrf_planes::adaptive

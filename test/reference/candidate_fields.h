@@ -2,6 +2,7 @@
 #pragma once
 
 #include "adaptive/cell_labelling.h"
+#include "adaptive/flatness.h"
 #include "reference/candidate_energy.h"
 #include "reference/inputs.h"
 
@@ -129,12 +130,14 @@ struct CloudField {
     const int x = static_cast<int>(i) % points.width;
     const int y = static_cast<int>(i) / points.width;
     const TileSums& cell = pyramid[0].sums[pyramid[0].at(x / CELL, y / CELL)];
-    FittedPlane plane = regions.planes[label - 1U];
-    plane.noise = cell.noise / cell.n;
+    const FittedPlane& plane = regions.planes[label - 1U];
+    const double growth = noise.growthOf(plane.n);
+    const double bend = flatnessOf(plane, parameters); // by the noise of all its points
+    const double variance =
+        growth * growth * incidenceFactor(plane) * cell.noise / cell.n + bend * bend;
     const double distance =
         std::abs(plane.distance(points.x[i], points.y[i], points.z[i]));
-    return std::min(distance / std::sqrt(allowedVariance(plane, noise, parameters)),
-                    3 * parameters.none_cost);
+    return std::min(distance / std::sqrt(variance), 3 * parameters.none_cost);
   }
 
   /// Calls visit(point, block, label) for all points of settled blocks.

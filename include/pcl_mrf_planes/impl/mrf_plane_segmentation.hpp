@@ -41,13 +41,10 @@ void MRFPlaneSegmentation<PointT>::segment(
     Covariances& covariances, PointCloudL& labels,
     std::vector<PointIndices>& label_indices)
 {
-  model_coefficients.clear();
-  inlier_indices.clear();
   centroids.clear();
   covariances.clear();
   labels.clear();
-  label_indices.clear();
-  run([&] {
+  const bool done = run([&] {
     fillModels(model_coefficients, inlier_indices);
     fillLabels(labels, label_indices);
     for (const auto& region : result_.regions) {
@@ -58,6 +55,14 @@ void MRFPlaneSegmentation<PointT>::segment(
       covariances.push_back(covariance.template cast<float>());
     }
   });
+  if (!done) {
+    model_coefficients.clear();
+    inlier_indices.clear();
+    centroids.clear();
+    covariances.clear();
+    labels.clear();
+    label_indices.clear();
+  }
 }
 
 template <typename PointT>
@@ -76,18 +81,23 @@ void MRFPlaneSegmentation<PointT>::segmentAndRefine(
     std::vector<PointIndices>& boundary_indices)
 {
   regions.clear();
-  model_coefficients.clear();
-  inlier_indices.clear();
-  label_indices.clear();
   boundary_indices.clear();
   if (!labels)
     labels.reset(new PointCloudL);
   labels->clear();
-  run([&] {
+  const bool done = run([&] {
     fillModels(model_coefficients, inlier_indices);
     fillLabels(*labels, label_indices);
     fillRegions(regions, boundary_indices);
   });
+  if (!done) {
+    regions.clear();
+    model_coefficients.clear();
+    inlier_indices.clear();
+    labels->clear();
+    label_indices.clear();
+    boundary_indices.clear();
+  }
 }
 
 template <typename PointT>
@@ -196,7 +206,7 @@ void MRFPlaneSegmentation<PointT>::findPose()
   // A few thousand points, spread over the image, say where the sensor was.
   constexpr std::size_t SAMPLES = 2000;
   const std::size_t step = std::max<std::size_t>(1, indices_->size() / SAMPLES);
-  std::vector<pcl_mrf_planes::Sighting> sightings;
+  sightings_.clear();
   for (std::size_t k = 0; k < indices_->size(); k += step) {
     const auto i = static_cast<std::size_t>((*indices_)[k]);
     const std::size_t row = i / input_->width;
@@ -204,11 +214,11 @@ void MRFPlaneSegmentation<PointT>::findPose()
     const Eigen::Vector2d pixel(static_cast<double>(column), static_cast<double>(row));
     const PointT& p = (*input_)[i];
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
-      sightings.push_back({Eigen::Vector3d(p.x, p.y, p.z), pixel});
+      sightings_.push_back({Eigen::Vector3d(p.x, p.y, p.z), pixel});
   }
-  if (pcl_mrf_planes::plausibleOrigin(sightings, pose_.origin))
+  if (pcl_mrf_planes::plausibleOrigin(sightings_, pose_.origin))
     return;
-  const bool found = pcl_mrf_planes::estimatePinholePose(sightings, pose_);
+  const bool found = pcl_mrf_planes::estimatePinholePose(sightings_, pose_);
   PCL_WARN(
       "[pcl::%s::segment] The cloud cannot have been seen from its sensor_origin_; "
       "%s.\n",
@@ -261,11 +271,11 @@ void MRFPlaneSegmentation<PointT>::copyPoints(int width, int height)
 template <typename PointT>
 void MRFPlaneSegmentation<PointT>::limitToIndices()
 {
-  std::vector<std::uint8_t> inside(points_.size(), 0);
+  inside_.assign(points_.size(), 0);
   for (const auto i : *indices_)
-    inside[static_cast<std::size_t>(i)] = 1;
+    inside_[static_cast<std::size_t>(i)] = 1;
   for (std::size_t i = 0; i < points_.size(); ++i)
-    if (inside[i] == 0)
+    if (inside_[i] == 0)
       points_.clear(i);
 }
 
@@ -280,13 +290,27 @@ MRFPlaneSegmentation<PointT>::coefficients(const pcl_mrf_planes::Plane& plane) c
 }
 
 template <typename PointT>
+template <typename Output>
+void MRFPlaneSegmentation<PointT>::resizeOutput(std::vector<Output>& output,
+                                                std::size_t size,
+                                                std::vector<Output>& spare)
+{
+  constexpr std::size_t MOST = 64; // more than most clouds have planes
+  for (; output.size() > size && spare.size() < MOST; output.pop_back())
+    spare.push_back(std::move(output.back()));
+  for (; output.size() < size && !spare.empty(); spare.pop_back())
+    output.push_back(std::move(spare.back()));
+  output.resize(size);
+}
+
+template <typename PointT>
 void MRFPlaneSegmentation<PointT>::fillModels(
     std::vector<ModelCoefficients>& model_coefficients,
-    std::vector<PointIndices>& inlier_indices) const
+    std::vector<PointIndices>& inlier_indices)
 {
   // What is there already is written over: a sequence needs no new memory.
-  model_coefficients.resize(result_.regions.size());
-  inlier_indices.resize(result_.regions.size());
+  resizeOutput(model_coefficients, result_.regions.size(), spare_coefficients_);
+  resizeOutput(inlier_indices, result_.regions.size(), spare_inliers_);
   for (std::size_t k = 0; k < result_.regions.size(); ++k) {
     const auto& region = result_.regions[k];
     ModelCoefficients& model = model_coefficients[k];
@@ -302,8 +326,8 @@ void MRFPlaneSegmentation<PointT>::fillModels(
 }
 
 template <typename PointT>
-void MRFPlaneSegmentation<PointT>::fillLabels(
-    PointCloudL& labels, std::vector<PointIndices>& label_indices) const
+void MRFPlaneSegmentation<PointT>::fillLabels(PointCloudL& labels,
+                                              std::vector<PointIndices>& label_indices)
 {
   labels.header = input_->header;
   labels.resize(input_->size());
@@ -315,7 +339,9 @@ void MRFPlaneSegmentation<PointT>::fillLabels(
   for (std::size_t i = 0; i < result_.labels.size(); ++i)
     labels[i].label = result_.labels[i];
 
-  label_indices.resize(result_.regions.size() + 1);
+  resizeOutput(label_indices, result_.regions.size() + 1, spare_label_indices_);
+  label_indices[0].header = {};
+  label_indices[0].indices.clear();
   for (std::size_t k = 0; k < result_.regions.size(); ++k) {
     const auto& indices = result_.regions[k].indices;
     label_indices[k + 1].header = input_->header;

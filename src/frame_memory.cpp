@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "frame_memory.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <new>
+
+#if defined(__has_feature)
+#define PCL_MRF_PLANES_WATCHED                                                         \
+  (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||              \
+   __has_feature(memory_sanitizer))
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PCL_MRF_PLANES_WATCHED 1
+#else
+#define PCL_MRF_PLANES_WATCHED 0
+#endif
+
+namespace pcl_mrf_planes {
+
+namespace {
+
+constexpr bool WATCHED = PCL_MRF_PLANES_WATCHED; // by a sanitizer
+constexpr std::align_val_t CACHE_LINE{64};
+
+thread_local FrameMemory* memory_of_this_thread = nullptr;
+
+/// One of the sizes of blocks: five to eight quarters of a power of two.
+struct BlockSize {
+  std::size_t number; ///< among all sizes, ascending
+  std::size_t bytes;
+
+  /// The least one that holds so many bytes.
+  explicit BlockSize(std::size_t wanted)
+  {
+    constexpr std::size_t LEAST = 64;
+    constexpr std::size_t LEAST_EXPONENT = 5; // of LEAST - 1
+    const std::uint64_t last = std::max(wanted, LEAST) - 1;
+    const auto exponent = static_cast<std::size_t>(63 - __builtin_clzll(last));
+    const std::size_t quarter = (last >> (exponent - 2)) & 3U;
+    number = 4 * (exponent - LEAST_EXPONENT) + quarter;
+    bytes = (quarter + 5) << (exponent - 2);
+  }
+};
+
+} // namespace
+
+FrameMemory::~FrameMemory()
+{
+  for (Spare* block : spare_)
+    while (block != nullptr) {
+      Spare* next = block->next;
+      ::operator delete(block, CACHE_LINE);
+      block = next;
+    }
+}
+
+void* FrameMemory::take(std::size_t bytes)
+{
+  const BlockSize size(bytes);
+  if (!WATCHED) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (Spare* block = spare_[size.number]) {
+      spare_[size.number] = block->next;
+      return block;
+    }
+  }
+  return ::operator new(WATCHED ? bytes : size.bytes, CACHE_LINE);
+}
+
+void FrameMemory::give(void* block, std::size_t bytes) noexcept
+{
+  if (WATCHED) {
+    ::operator delete(block, CACHE_LINE);
+    return;
+  }
+  const BlockSize size(bytes);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  spare_[size.number] = new (block) Spare{spare_[size.number]};
+}
+
+bool FrameMemory::keeps() noexcept
+{
+  return !WATCHED;
+}
+
+FrameMemory* FrameMemory::ofThisThread() noexcept
+{
+  return memory_of_this_thread;
+}
+
+FrameMemoryScope::FrameMemoryScope(FrameMemory* memory) noexcept
+: before_(memory_of_this_thread)
+{
+  memory_of_this_thread = memory;
+}
+
+FrameMemoryScope::~FrameMemoryScope()
+{
+  memory_of_this_thread = before_;
+}
+
+} // namespace pcl_mrf_planes
