@@ -32,13 +32,14 @@ class DecisionScratch {
 public:
   DecisionScratch(int labels, int layout_stride);
 
-  std::uint16_t* excess[DIRECTIONS]; ///< a vector for each label
-  std::uint16_t* low;                ///< a vector for each label
-  std::uint16_t* high;               ///< a vector for each label
-  std::uint16_t* where;              ///< a vector for each open label
-  FrameVector<int> open;             ///< labels
-  FrameVector<int> active;           ///< labels
-  FrameVector<std::uint16_t> row;    ///< a row of labels
+  /// By how much each label is worse for a neighbour than its best: a vector for each label.
+  std::uint16_t* excess[DIRECTIONS];
+  std::uint16_t* low;             ///< bound of the belief: a vector for each label
+  std::uint16_t* high;            ///< bound of the belief: a vector for each label
+  std::uint16_t* where;           ///< a vector for each open label
+  FrameVector<int> open;          ///< labels
+  FrameVector<int> active;        ///< labels
+  FrameVector<std::uint16_t> row; ///< a row of labels
 
 private:
   FrameVector<std::uint16_t> buffer_;

@@ -93,6 +93,38 @@ TEST_P(PropagationTest, ThreadsGiveTheSameLabels)
   }
 }
 
+// Bounds that are equal, labels that are equal, edges that are free or missing.
+TEST_P(PropagationTest, TiesAreTheSameRowByRow)
+{
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    GridField field = makeField(seed, 0.7);
+    scenes::Random random(100 + seed);
+    const auto few = [&] {
+      return static_cast<std::uint16_t>(random.chance(0.5) ? 1 : 2);
+    };
+    for (int a = 0; a < field.labels(); ++a)
+      for (int b = 0; b < a; ++b)
+        field.setPairwise(a, b, few());
+    for (int y = 0; y < field.height(); ++y)
+      for (int x = 0; x < field.width(); ++x) {
+        for (int l = 0; l < field.labels(); ++l)
+          field.setData(x, y, l, few());
+        if (field.rightEdge(x, y) != GridField::NO_EDGE)
+          field.setRightEdge(x, y, random.chance(0.7) ? 0 : 1);
+        if (field.downEdge(x, y) != GridField::NO_EDGE)
+          field.setDownEdge(x, y, random.chance(0.7) ? 0 : 3);
+      }
+    for (const int iterations : {1, 5}) {
+      BeliefPropagation plain(field);
+      plain.iterate(iterations);
+      for (const unsigned int threads : {1U, 8U})
+        ASSERT_EQ(propagateRows(field, iterations, threads), plain.mapLabels())
+            << "seed " << seed << ", " << iterations << " iterations, " << threads
+            << " threads";
+    }
+  }
+}
+
 TEST_P(PropagationTest, WithoutEdgesTheCheapestLabelWins)
 {
   const GridField field = makeField(3, 0.0);

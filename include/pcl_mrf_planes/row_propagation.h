@@ -17,12 +17,15 @@ namespace pcl_mrf_planes {
  * between the first and the last of them are kept, which fits into a cache. Costs are
  * asked for once, when the first iteration reaches their row.
  *
+ * With EdgeModel::SOFT_THRESHOLD the messages of the last iteration are not sent: only the
+ * least belief counts after them, and few labels can still have it.
+ *
  * Threads share the image in bands. A band starts and ends \a iterations rows early and
  * late, which is as far as a message can have come, so the bands need nothing from each
  * other and the labels do not depend on their number.
  *
  * O(sites * iterations * L^2) at worst, usually far less, see BeliefPropagation. Memory
- * a thread: 10 L bytes a site for iterations + 2 rows (less if the image is smaller).
+ * a thread: 10 L bytes a site for iterations + 3 rows (less if the image is smaller).
  *
  * \param[in] field costs, see GridField for their range
  * \param[in] iterations checkerboard iterations, >= 0
