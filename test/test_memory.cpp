@@ -154,7 +154,7 @@ TEST_P(Allocation, FramesThatAlternateNeedNone)
     sequence.segment(clouds);
   EXPECT_EQ(sequence.segment(clouds), 0U);
   sequence.segment(clouds[0]);
-  EXPECT_GT(sequence.planes(), 3U);
+  EXPECT_GE(sequence.planes(), 3U);
 }
 
 TEST_P(Allocation, TwoThreadsNeedThatOfTheirTeam)

@@ -160,18 +160,16 @@ Labelling labelSampled(const OrganizedPoints& points, int every,
   return found;
 }
 
-/// Keeps what the confidence asks for, in the memory that is there if nobody else has it.
-void keepNoise(const NoiseLaw& noise, const TileLevel& blocks,
-               std::shared_ptr<const BlockNoise>& kept)
+/// Takes the memory of the noise of a cloud before where nobody else has it.
+void takeNoise(std::shared_ptr<const BlockNoise>& from, std::shared_ptr<BlockNoise>& to)
 {
-  std::shared_ptr<BlockNoise> own = std::const_pointer_cast<BlockNoise>(kept);
-  kept.reset();
-  if (own.use_count() == 1)
+  if (from)
+    to = std::const_pointer_cast<BlockNoise>(from);
+  from.reset();
+  if (to.use_count() == 1)
     std::atomic_thread_fence(std::memory_order_acquire); // all others are done with it
   else
-    own = std::make_shared<BlockNoise>();
-  own->assign(noise, blocks);
-  kept = std::move(own);
+    to.reset();
 }
 
 } // namespace
@@ -200,10 +198,13 @@ void adaptive::segmentObserved(const OrganizedPoints& points,
       every > 1
           ? labelSampled(points, every, parameters, watch, workspace, std::move(labels))
           : labelPlanes(points, parameters, watch, workspace, std::move(labels));
-  if (every == 1)
-    keepNoise(found.noise, workspace.pyramid[BLOCK_LEVEL], result.block_noise);
-  else
-    result.block_noise.reset(); // it would be of blocks of samples
+  takeNoise(result.block_noise, workspace.noise);
+  if (every == 1) { // it would be of blocks of samples otherwise
+    if (!workspace.noise)
+      workspace.noise = std::make_shared<BlockNoise>();
+    workspace.noise->assign(found.noise, workspace.pyramid[BLOCK_LEVEL]);
+    result.block_noise = std::move(workspace.noise);
+  }
   std::vector<Plane>& planes = workspace.regions.planes;
   planes.assign(found.fitted.planes.begin(), found.fitted.planes.end());
   const LabelRuns runs = planeRuns(found.image.runs);

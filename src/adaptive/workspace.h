@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "adaptive/block_noise.h"
 #include "adaptive/candidate_field.h"
 #include "adaptive/tile_pyramid.h"
 #include "region_gathering.h"
@@ -8,6 +9,7 @@
 #include <pcl_mrf_planes/organized_points.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace pcl_mrf_planes::adaptive {
@@ -21,6 +23,7 @@ struct Workspace {
   BeliefMemory beliefs;
   std::vector<std::uint16_t> labels; ///< of the samples
   RegionMemory regions;
+  std::shared_ptr<BlockNoise> noise; ///< where no result has it
 };
 
 } // namespace pcl_mrf_planes::adaptive
