@@ -343,6 +343,7 @@ TEST(PlaneUncertaintyTest, PointsThatAreNoPlaneSaySo)
     EXPECT_FALSE(found.valid);
     EXPECT_TRUE(std::isinf(found.minimal(0, 0)) && std::isinf(found.covariance(3, 3)));
     EXPECT_EQ(found.minimal(0, 1), 0.0);
+    EXPECT_EQ(found.squaredDistance({{1, 0, 0}, 5}), 0.0) << "no plane is ruled out";
     SensorPose pose;
     pose.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY()).toRotationMatrix();
     pose.origin = Eigen::Vector3d(1, 2, 3);
