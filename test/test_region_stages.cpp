@@ -165,6 +165,21 @@ OrganizedPoints wall(int width, int height)
   return points;
 }
 
+/// The plane of that wall for two labels.
+FittedRegions wallTwice()
+{
+  FittedPlane plane;
+  plane.normal = {0, 0, -1};
+  plane.d = 2;
+  plane.centroid = {0, 0, 2};
+  plane.extent = 0.3;
+  plane.n = 1000;
+  FittedRegions regions;
+  regions.add(plane, {});
+  regions.add(plane, {});
+  return regions;
+}
+
 TEST(RegionStagesTest, SmallPartsLoseTheirLabelAndLargeOnesKeepIt)
 {
   constexpr int WIDTH = 96;
@@ -189,7 +204,7 @@ TEST(RegionStagesTest, SmallPartsLoseTheirLabelAndLargeOnesKeepIt)
     }
     const ConnectedParts parts = findConnectedParts(labels, WIDTH, HEIGHT);
     LabelledPoints image(labels, WIDTH);
-    refineRegions(points, pyramid, whiteNoise(0.01), parameters, image);
+    refineRegions(points, pyramid, wallTwice(), whiteNoise(0.01), parameters, image);
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (labels[i] == 0) {
         EXPECT_EQ(image.labels[i], 0);
@@ -202,6 +217,35 @@ TEST(RegionStagesTest, SmallPartsLoseTheirLabelAndLargeOnesKeepIt)
     }
   }
   EXPECT_GT(dropped, 0U) << "the test needs small parts";
+}
+
+/// What is left of a wall with one label, some of whose points are half a metre in front.
+FittedRegions refinedWall(int in_front)
+{
+  constexpr int SIDE = 80;
+  OrganizedPoints points = wall(SIDE, SIDE);
+  for (int k = 0; k < in_front; ++k) {
+    const std::size_t i = static_cast<std::size_t>(k) * 37 % points.size();
+    points.set(i, points.x[i], points.y[i], 1.5F);
+  }
+  const AdaptiveParameters parameters;
+  const auto pyramid = buildTilePyramid(points, parameters);
+  LabelledPoints image(std::vector<std::uint16_t>(points.size(), 1), SIDE);
+  return refineRegions(points, pyramid, wallTwice(), whiteNoise(1e-4), parameters,
+                       image);
+}
+
+TEST(RegionStagesTest, AFewPointsInFrontDoNotSpoilAPlane)
+{
+  for (const int in_front : {0, 1, 3, 60}) {
+    const FittedRegions regions = refinedWall(in_front);
+    ASSERT_EQ(regions.planes.size(), 1U) << in_front << " of 6400 points";
+    EXPECT_NEAR(regions.planes[0].mse, 0, 1e-8);
+    EXPECT_NEAR(regions.planes[0].d, 2, 1e-5);
+    EXPECT_EQ(regions.planes[0].n, 6400 - in_front);
+    EXPECT_EQ(regions.sums[0].n, 6400 - in_front);
+  }
+  EXPECT_TRUE(refinedWall(70).planes.empty()) << "more than one in a hundred";
 }
 
 /// A patch of a floor a metre below, far ahead, and around it what \a goes_on tells: the

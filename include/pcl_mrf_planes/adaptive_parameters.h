@@ -38,7 +38,7 @@ struct PCL_MRF_PLANES_EXPORT AdaptiveParameters {
   double max_flatness = 0.002;     ///< but by no more than this, metres, >= 0
   double flatness_noise = 0.00115; ///< of the points that allow all of it, metres, >= 0
   double quiet_flatness =
-      1.0;                 ///< share of it that is left without noise, 0 to 1; 1: off
+      0.55;                ///< share of it that is left without noise, 0 to 1; 1: off
   double min_sigma = 2e-5; ///< least sigma at 1 m, growing with distance, metres, > 0
   int local_reach = 2;     ///< window of the local noise, tiles each way, 0 to 16
   double local_percentile = 0.25; ///< of the tiles' rms in that window, 0 to 1

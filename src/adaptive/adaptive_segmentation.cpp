@@ -133,7 +133,7 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   report.iterations += parameters.passes;
   timer.finish("propagation");
   FittedRegions fitted =
-      refineRegions(points, pyramid, noise, parameters, image, threads);
+      refineRegions(points, pyramid, regions, noise, parameters, image, threads);
   if (observer != nullptr)
     observer->seeImage(Stage::REFINED, fitted, image);
   dropDoubtfulPlanes(points, noise, parameters, fitted, image, threads);

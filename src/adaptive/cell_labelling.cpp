@@ -47,7 +47,8 @@ public:
       const int row = cells_.rows - 1 - step;
       const int begin = strips.begin(strip);
       for (int end = strips.begin(strip + 1); end > begin; end -= GROUP)
-        if (!isCalm(end - GROUP, end, row) || end - GROUP < begin)
+        if (end - GROUP < begin ||
+            !isCalm(end - GROUP, end, row)) // another strip's cells
           for (int k = end - 1; k >= std::max(end - GROUP, begin); --k)
             visit(k, row);
     });

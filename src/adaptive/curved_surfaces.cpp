@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/curved_surfaces.h"
+#include "adaptive/flatness.h"
 #include "adaptive/plane_evidence.h"
 #include "adaptive/region_borders.h"
 #include "adaptive/surface_bend.h"
@@ -108,7 +109,7 @@ public:
 
   bool has(std::size_t region) const
   {
-    return bendsItself(bends_[region]) ||
+    return bendsItself(region) ||
            (parameters_.fan_parts > 0 &&
             (fan_[region] >= parameters_.fan_parts || isFacet(region) ||
              isWideFacet(region) || surrounded_[region]));
@@ -122,9 +123,17 @@ private:
     return bend.angle * std::sqrt(bend.share);
   }
 
-  bool bendsItself(const Bend& bend) const
+  /// An arc turns by the root of how far it bends: what may bend less for want of noise may
+  /// turn less, where next to nothing but the bend keeps its points off the plane.
+  bool bendsItself(std::size_t region) const
   {
-    return clearTurn(bend) > parameters_.bend_angle * DEGREE;
+    constexpr double NEARLY_ALL = 0.9; // of the squared distances
+    const Bend& bend = bends_[region];
+    const double most = parameters_.bend_angle * DEGREE;
+    return clearTurn(bend) > most ||
+           (bend.share > NEARLY_ALL &&
+            bend.angle >
+                most * std::sqrt(flatnessShare(regions_.planes[region], parameters_)));
   }
 
   /// Larger facets, if there is one more of them in the row and they bend a little

@@ -5,6 +5,7 @@
 #include "threads.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -135,6 +136,68 @@ FrameVector<TileSums> sumLabels(const OrganizedPoints& points,
       .sums;
 }
 
+/// The sums of the points of a label that lie no farther from a plane than that.
+TileSums sumNear(const OrganizedPoints& points, const LabelRuns& image,
+                 std::uint16_t label, const FittedPlane& plane, double farthest)
+{
+  TileSums sums;
+  for (const LabelRun& run : image.runs) {
+    if (run.label != label)
+      continue;
+    for (std::size_t i = run.begin; i < run.end; ++i)
+      if (points.valid[i] != 0 &&
+          std::abs(plane.distance(points.x[i], points.y[i], points.z[i])) <= farthest)
+        sums.add(points.x[i], points.y[i], points.z[i]);
+  }
+  return sums;
+}
+
+/// Planes fitted to the points of labels.
+class Refit {
+public:
+  Refit(const OrganizedPoints& points, const LabelRuns& image,
+        const FittedRegions& before, const NoiseLaw& noise,
+        const AdaptiveParameters& parameters)
+  : points_(points)
+  , image_(image)
+  , before_(before)
+  , noise_(noise)
+  , parameters_(parameters)
+  {}
+
+  /// \return whether the points of a label, or all of them but a few, are a plane; those few
+  /// are then taken out of their sums
+  bool fit(std::uint16_t label, TileSums& sums, FittedPlane& plane) const
+  {
+    plane = fitSums(sums);
+    if (isPlane(plane, parameters_.min_points, noise_, parameters_))
+      return true;
+    if (plane.n < parameters_.min_points)
+      return false;
+    // Single points of what stands in front have the label of what is around them. Without
+    // noise, two of them at half a metre weigh more than a floor.
+    const FittedPlane& known = before_.planes[label - 1U];
+    const double sigma = std::sqrt(allowedVariance(known, noise_, parameters_));
+    TileSums near =
+        sumNear(points_, image_, label, known, parameters_.none_cost * sigma);
+    if (near.n < LEAST * sums.n)
+      return false;
+    near.noise = sums.noise * near.n / sums.n;
+    sums = near;
+    plane = fitSums(sums);
+    return isPlane(plane, parameters_.min_points, noise_, parameters_);
+  }
+
+private:
+  static constexpr double LEAST = 0.99; ///< of the points
+
+  const OrganizedPoints& points_;
+  const LabelRuns& image_;
+  const FittedRegions& before_;
+  const NoiseLaw& noise_;
+  const AdaptiveParameters& parameters_;
+};
+
 } // namespace
 
 void LabelledPoints::renumber(const FrameVector<std::uint16_t>& id,
@@ -153,20 +216,21 @@ void LabelledPoints::renumber(const FrameVector<std::uint16_t>& id,
 
 FittedRegions refineRegions(const OrganizedPoints& points,
                             const std::vector<TileLevel>& pyramid,
-                            const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                            LabelledPoints& image, unsigned int threads)
+                            const FittedRegions& before, const NoiseLaw& noise,
+                            const AdaptiveParameters& parameters, LabelledPoints& image,
+                            unsigned int threads)
 {
   dropSmallParts(parameters.min_points, image);
   std::size_t count = 1;
   for (const LabelRun& run : image.runs.runs)
     count = std::max<std::size_t>(count, run.label + 1U);
-  const FrameVector<TileSums> sums =
-      sumLabels(points, pyramid, image.labels, count, threads);
+  FrameVector<TileSums> sums = sumLabels(points, pyramid, image.labels, count, threads);
+  const Refit refit(points, image.runs, before, noise, parameters);
   FittedRegions out;
   FrameVector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
-    const FittedPlane plane = fitSums(sums[k]);
-    if (!isPlane(plane, parameters.min_points, noise, parameters))
+    FittedPlane plane;
+    if (!refit.fit(static_cast<std::uint16_t>(k), sums[k], plane))
       continue;
     out.add(plane, sums[k]);
     id[k] = static_cast<std::uint16_t>(out.planes.size());

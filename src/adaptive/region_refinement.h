@@ -23,11 +23,14 @@ struct LabelledPoints {
 };
 
 /** \brief After labelling: small components of a label lose it, planes are fitted again
- * to their points, those that are not planar given the noise or too small are dropped.
- * Labels are renumbered 1..planes.size(). */
+ * to their points, those that are not planar given the noise or too small are dropped. Of
+ * points that would keep a label from being a plane, one in a hundred may be left out.
+ * Labels are renumbered 1..planes.size().
+ * \param[in] before the planes that the labels had, from label 1 on */
 FittedRegions refineRegions(const OrganizedPoints& points,
                             const std::vector<TileLevel>& pyramid,
-                            const NoiseLaw& noise, const AdaptiveParameters& parameters,
-                            LabelledPoints& image, unsigned int threads = 1);
+                            const FittedRegions& before, const NoiseLaw& noise,
+                            const AdaptiveParameters& parameters, LabelledPoints& image,
+                            unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive
