@@ -28,7 +28,7 @@ const std::vector<Ablation>& ablations()
       {"same noise for all sizes", {{"max-growth", "1"}, {"long-range", "1"}}},
       {"same noise everywhere", {{"max-local", "1"}}},
       {"exactly flat planes", {{"flatness", "0"}}},
-      {"flatter planes without noise", {{"quiet-flatness", "0.55"}}},
+      {"as much bend without noise", {{"quiet-flatness", "1"}}},
       // Tiles
       {"tiles of 16 points only", {{"levels", "3"}, {"smallest-level", "2"}}},
       {"tiles of 32 points only", {{"levels", "4"}, {"smallest-level", "3"}}},
