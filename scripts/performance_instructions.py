@@ -21,7 +21,7 @@ POINTS = 640 * 480
 LINE = 64  # bytes
 PROFILES = ['FAST', 'DEFAULT', 'PAPER', 'PAPER_10_LABELS']
 # Functions that call the stages; what else they call is "other".
-DRIVERS = re.compile(r'(segmentObserved|labelPlanes|segmentAsInPaper|segmentAdaptively|'
+DRIVERS = re.compile(r'(segmentObserved|labelPlanes|labelPoints|segmentAsInPaper|segmentAdaptively|'
                      r'inferLabels|PlaneSegmenter::segment|MRFPlaneSegmentation<[^(]*>::\w+)\(')
 STAGES = {
     'points': r'OrganizedPoints::(load|resolveDepthMeasure)\(',
