@@ -66,7 +66,7 @@ public:
 
 private:
   static constexpr unsigned BITS =
-      16; // of the parts taken from an end; the job's are 32
+      14; // of the parts, and of those taken from an end; the job's are 22
 
   /// \param[in] order which part, if the job does not mind: the first or the last
   /// \return whether there was a part to do

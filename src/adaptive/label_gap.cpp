@@ -106,12 +106,13 @@ TileLevel emptyCells(const OrganizedPoints& points)
 /// Gives each plane the mean noise of the cells that it has.
 void spreadNoise(const TileLevel& cells, const BlockNoise& noise, TileRegions& regions)
 {
-  const int columns = (cells.columns + 1) / 2; // of blocks
+  const auto columns = static_cast<std::size_t>((cells.columns + 1) / 2); // of blocks
   std::vector<double> count(regions.planes.size(), 0);
   for (int row = 0; row < cells.rows; ++row)
     for (int column = 0; column < cells.columns; ++column)
       if (const int region = regions.cell_region[cells.at(column, row)]; region >= 0) {
-        const auto block = static_cast<std::size_t>(row / 2 * columns + column / 2);
+        const std::size_t block = static_cast<std::size_t>(row / 2) * columns +
+                                  static_cast<std::size_t>(column / 2);
         const auto k = static_cast<std::size_t>(region);
         regions.planes[k].noise += noise.blocks[block].variance();
         ++count[k];

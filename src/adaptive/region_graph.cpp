@@ -19,17 +19,17 @@ TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least
 {
   TileRegions out;
   FrameVector<int> id(static_cast<std::size_t>(regions.size()) + 1, -1);
-  const auto at = [&](int i) -> int& { return id[static_cast<std::size_t>(i + 1)]; };
+  int* const number = id.data() + 1; // of each set, and in front of them of none
   for (int i = 0; i < regions.size(); ++i)
     if (regions.find(i) == i && regions.sums(i).n >= least) {
-      at(i) = static_cast<int>(out.planes.size());
+      number[i] = static_cast<int>(out.planes.size());
       out.planes.push_back(regions.plane(i));
       out.sums.push_back(regions.sums(i));
     }
   for (int i = 0; i < regions.size(); ++i)
-    at(i) = at(regions.find(i));
+    number[i] = number[regions.find(i)];
   for (int& region : cell_region)
-    region = at(region); // none stays none
+    region = number[region]; // none stays none
   out.cell_region = std::move(cell_region);
   return out;
 }
