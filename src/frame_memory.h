@@ -87,14 +87,14 @@ public:
 
   T* allocate(std::size_t count)
   {
-    return memory_ != nullptr ? static_cast<T*>(memory_->take(count * sizeof(T)))
+    return memory_ != nullptr ? static_cast<T*>(memory_->take(count * SIZE))
                               : std::allocator<T>().allocate(count);
   }
 
   void deallocate(T* block, std::size_t count) noexcept
   {
     if (memory_ != nullptr)
-      memory_->give(block, count * sizeof(T));
+      memory_->give(block, count * SIZE);
     else
       std::allocator<T>().deallocate(block, count);
   }
@@ -103,6 +103,9 @@ public:
   FrameMemory* memory() const { return memory_; }
 
 private:
+  static constexpr std::size_t SIZE =
+      sizeof(T); // NOLINT(bugprone-sizeof-expression): T may be a pointer
+
   FrameMemory* memory_;
 };
 
