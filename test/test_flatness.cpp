@@ -55,7 +55,8 @@ TEST(FlatnessTest, MoreNoiseNeverAllowsLess)
   AdaptiveParameters p;
   p.quiet_flatness = 0.55;
   double before = 0;
-  for (double sigma = 0; sigma < 0.003; sigma += 1e-5) {
+  for (int step = 0; step < 300; ++step) {
+    const double sigma = 1e-5 * step;
     const double bend = flatnessOf(planeOf(1, sigma), p);
     EXPECT_GE(bend, before);
     before = bend;
