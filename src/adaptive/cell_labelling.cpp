@@ -47,8 +47,8 @@ public:
       const int row = cells_.rows - 1 - step;
       const int begin = strips.begin(strip);
       for (int end = strips.begin(strip + 1); end > begin; end -= GROUP)
-        if (end - GROUP < begin ||
-            !isCalm(end - GROUP, end, row)) // another strip's cells
+        // A group that reaches into the strip beside it is not looked at: others write there.
+        if (end - GROUP < begin || !isCalm(end - GROUP, end, row))
           for (int k = end - 1; k >= std::max(end - GROUP, begin); --k)
             visit(k, row);
     });
@@ -61,7 +61,7 @@ private:
   static constexpr int GROUP = 8; ///< cells that are looked at at once
   using Neighbours = std::array<int, SIDES>;
 
-  /// Whether a group of cells from c on and all their neighbours carry one label: none of them
+  /// Whether a group of cells from a column on and all their neighbours carry one label: none of them
   /// would get another. \param[in] end of the cells that may be visited
   bool isCalm(int column, int end, int row) const
   {
