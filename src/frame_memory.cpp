@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frame_memory.h"
 
+#include "sanitizers.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <new>
-
-#if defined(__has_feature)
-#define PCL_MRF_PLANES_WATCHED                                                         \
-  (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||              \
-   __has_feature(memory_sanitizer))
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PCL_MRF_PLANES_WATCHED 1
-#else
-#define PCL_MRF_PLANES_WATCHED 0
-#endif
 
 namespace pcl_mrf_planes {
 
 namespace {
 
-constexpr bool WATCHED = PCL_MRF_PLANES_WATCHED; // by a sanitizer
+constexpr bool WATCHED = PCL_MRF_PLANES_SANITIZED != 0; // by a sanitizer
 constexpr std::align_val_t CACHE_LINE{64};
 
 thread_local FrameMemory* memory_of_this_thread = nullptr;

@@ -3,20 +3,12 @@
 // operator new and delete of the whole program, replaced by some that count.
 #include "allocation_calls.h"
 
+#include "sanitizers.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <new>
-
-#if defined(__has_feature)
-#define PCL_MRF_PLANES_SANITIZED                                                       \
-  (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||              \
-   __has_feature(memory_sanitizer))
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PCL_MRF_PLANES_SANITIZED 1
-#else
-#define PCL_MRF_PLANES_SANITIZED 0
-#endif
 
 #if PCL_MRF_PLANES_SANITIZED // which has operators of its own
 

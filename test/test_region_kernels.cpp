@@ -347,11 +347,16 @@ TEST(LabelGapTest, NoiseThatIsKeptIsTheNoiseThatIsFound)
 {
   const OrganizedPoints points = reference::toPoints(
       reference::takePicture("room", 157, 121, 3, scenes::SensorNoise::kinect()));
-  PlaneSegmentation result = segmentPlanes(points, Parameters());
-  ASSERT_NE(result.block_noise, nullptr);
-  const std::vector<float> expected = labelConfidence(points, result, Parameters());
-  result.block_noise.reset();
-  EXPECT_EQ(labelConfidence(points, result, Parameters()), expected);
+  for (const bool estimated : {true, false}) {
+    Parameters parameters;
+    parameters.adaptive.estimate_noise = estimated; // false: a Kinect's is stated
+    PlaneSegmentation result = segmentPlanes(points, parameters);
+    ASSERT_GT(result.regions.size(), 2U);
+    ASSERT_NE(result.block_noise, nullptr);
+    const std::vector<float> expected = labelConfidence(points, result, parameters);
+    result.block_noise.reset();
+    EXPECT_EQ(labelConfidence(points, result, parameters), expected) << estimated;
+  }
 }
 
 } // namespace

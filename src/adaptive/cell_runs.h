@@ -5,7 +5,6 @@
 #include "frame_memory.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace pcl_mrf_planes::adaptive {
 
