@@ -99,9 +99,10 @@ void readBody(std::ifstream& stream, PcdHeader& header)
     return;
   }
   rewind(stream, header);
-  std::vector<unsigned char> body(header.body_size);
+  // PCL unpacks a byte before it looks whether there is one: of nothing, that behind it.
+  std::vector<unsigned char> body(header.body_size + 1);
   if (!stream.read(reinterpret_cast<char*>(body.data()),
-                   static_cast<std::streamsize>(body.size())))
+                   static_cast<std::streamsize>(header.body_size)))
     throw std::runtime_error("cannot be read to its end; copy or record it again");
   const bool compressed = header.format == PcdFormat::BINARY_COMPRESSED;
   if (pcl::PCDReader().readBodyBinary(body.data(), header.cloud, header.version,
