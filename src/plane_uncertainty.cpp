@@ -33,6 +33,8 @@ constexpr double POOLED_BLOCKS = 30.0;
 /// Least and most of a block that may be its plane's doing.
 constexpr double FEWEST_IN_BLOCK = 8.0;
 constexpr double LARGEST_LEVERAGE = 0.5;
+/// What noise along the ray may be of a distance.
+constexpr double LARGEST_NOISE = 0.1;
 /// Median of chi-square with one degree of freedom.
 constexpr double MEDIAN_CHI_SQUARE = 0.4549364;
 
@@ -277,10 +279,11 @@ Eigen::Matrix3d toOrigin(const Eigen::Vector2d& centroid)
 
 /// Expected (alpha, beta) of the error. A point that the noise moves by e along the normal
 /// moves by -e p / d along the plane (p from the sensor): the products no longer cancel.
+/// Nothing where no sensor is so noisy: the points do not come along rays from the origin.
 Eigen::Vector2d biasOf(const Evidence& evidence, const Eigen::Vector2d& centroid)
 {
   const double d = evidence.result.plane.d;
-  if (!(d > 1e-9))
+  if (!(LARGEST_NOISE * d > std::sqrt(evidence.noise(2, 2) / evidence.n)))
     return Eigen::Vector2d::Zero();
   const Eigen::Vector2d moments =
       evidence.noise.topRightCorner<2, 1>() + evidence.noise(2, 2) * centroid;

@@ -13,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,35 @@ TEST(AdaptiveHostileTest, NoInputAndNoParametersBreakIt)
       expectSound(input.second, result);
       EXPECT_TRUE(result.regions.empty() || choice.first != "no plane is large enough");
     }
+  }
+}
+
+TEST(AdaptiveHostileTest, MorePlanesThanLabelsAreRefused)
+{
+  constexpr int SIDE = 4; // points of a cell, each a plane
+  const auto steps = [](int columns, int rows) {
+    return made(SIDE * columns, SIDE * rows, [=](int u, int v) {
+      const int column = u / SIDE;
+      const int row = v / SIDE;
+      const float z = 2.0f + 0.5f * static_cast<float>((column + 2 * row) % 5);
+      return Eigen::Vector3f(0.002f * z * static_cast<float>(u - SIDE / 2 * columns),
+                             0.002f * z * static_cast<float>(v - SIDE / 2 * rows), z);
+    });
+  };
+  Parameters parameters;
+  parameters.adaptive.min_points = 3;
+  parameters.adaptive.min_evidence = 0;
+  parameters.adaptive.join_coplanar = false;
+  parameters.adaptive.estimate_noise =
+      false; // larger tiles would show nothing but steps
+  parameters.noise = NoiseModel::fixed(0.0001);
+  EXPECT_EQ(segmentPlanes(steps(20, 20), parameters).report.planes_after_merging, 400U);
+  try {
+    segmentPlanes(steps(256, 255), parameters);
+    FAIL() << "65280 planes have no labels of 16 bits";
+  }
+  catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("65000 planes"), std::string::npos);
   }
 }
 

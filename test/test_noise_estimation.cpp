@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/noise_estimation.h"
+#include "adaptive/tile_rms.h"
 
 #include "scenes/random.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace pcl_mrf_planes::adaptive {
 namespace {
@@ -52,6 +55,23 @@ NoiseLaw noiseOf(const OrganizedPoints& points)
 {
   const AdaptiveParameters parameters;
   return estimateNoise(buildTilePyramid(points, parameters), parameters);
+}
+
+TEST(PercentileTest, IsThatOfTheNumbersInTheirOrder)
+{
+  FrameVector<double> none;
+  EXPECT_EQ(percentile(none, 0.5), 0.0);
+  scenes::Random random(4);
+  for (const std::size_t count : {1U, 2U, 11U, 100U})
+    for (const double share : {0.0, 0.3, 0.5, 1.0}) {
+      FrameVector<double> numbers;
+      for (std::size_t k = 0; k < count; ++k)
+        numbers.push_back(random.normal());
+      FrameVector<double> sorted = numbers;
+      std::sort(sorted.begin(), sorted.end());
+      const double place = share * static_cast<double>(count - 1);
+      EXPECT_EQ(percentile(numbers, share), sorted[static_cast<std::size_t>(place)]);
+    }
 }
 
 TEST(NoiseEstimationTest, FindsTheNoiseOfSurfacesAtAllDepths)

@@ -357,6 +357,28 @@ TEST(PlaneUncertaintyTest, PointsThatAreNoPlaneSaySo)
   EXPECT_TRUE(planeUncertainties(points, {}).empty());
 }
 
+TEST(PlaneUncertaintyTest, APlaneThroughTheSensorHasAFiniteOne)
+{
+  scenes::Random random(7);
+  OrganizedPoints points;
+  points.resize(40, 30);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x)
+      points.set(
+          static_cast<std::size_t>(40 * y + x), // edge-on, as depth images have none
+          static_cast<float>(0.001 * random.normal()), 0.01f * static_cast<float>(y),
+          1 + 0.01f * static_cast<float>(x));
+  const std::vector<std::uint16_t> labels(points.size(), 0);
+  const auto regions = gatherRegions(points, {{{-1, 0, 0}, 0}}, labels, 0);
+  ASSERT_EQ(regions.size(), 1U);
+  const PlaneUncertainty found = planeUncertainties(points, regions)[0];
+  ASSERT_TRUE(found.valid);
+  EXPECT_TRUE(found.minimal.allFinite() && found.covariance.allFinite());
+  EXPECT_LT(found.squaredDistance({{1, 0, 0}, 0}), 16.0)
+      << "the truth is not ruled out";
+  EXPECT_GT(found.squaredDistance({{1, 0, 0}, 0.1}), 100.0) << "one 10 cm off is";
+}
+
 TEST(PlaneUncertaintyTest, ExactPointsHaveLittleButNotNone)
 {
   scenes::View view = scenes::singlePlane();

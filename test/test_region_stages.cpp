@@ -116,6 +116,15 @@ int stepsTo(int region, const TileRegions& regions, const TileLevel& cells, int 
   return least;
 }
 
+TEST(RegionStagesTest, PairsThatCostTheSameComeInTheOrderOfTheirNumbers)
+{
+  const std::vector<Candidate> in_order = {
+      {1.0, 5, 6, 0}, {2.0, 1, 2, 0}, {2.0, 1, 3, 0}, {2.0, 2, 3, 0}, {3.0, 0, 1, 0}};
+  for (std::size_t i = 0; i < in_order.size(); ++i)
+    for (std::size_t j = 0; j < in_order.size(); ++j)
+      EXPECT_EQ(in_order[j] < in_order[i], i < j) << i << " before " << j;
+}
+
 TEST(RegionStagesTest, CandidatesAreTheRegionsInReachTheNearestFirst)
 {
   scenes::Random random(3);
