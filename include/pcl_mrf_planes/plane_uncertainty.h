@@ -37,8 +37,8 @@ struct PCL_MRF_PLANES_EXPORT PlaneUncertainty {
   Eigen::Matrix3d minimal;
   /// Covariance of (a, b, c, d), of rank 3: the length of (a, b, c) is known.
   Eigen::Matrix4d covariance;
-  /// Expected error of (a, b, c, d). Noise along the viewing ray stretches an oblique
-  /// surface and turns its plane; the mean of many frames keeps this error.
+  /// Expected error of (a, b, c, d), in the mean of many frames, too: noise along the ray
+  /// turns the planes of oblique surfaces. 0 where it is over d / 10: rays hardly meet it.
   Eigen::Vector4d bias = Eigen::Vector4d::Zero();
   /// Points that tell as much as one with independent noise; 1 for white noise. The
   /// covariances hold that, and more in directions in which blocks of the region are off
