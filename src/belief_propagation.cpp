@@ -17,11 +17,10 @@ static_assert(BeliefPropagation::FROM_LEFT == LEFT &&
 namespace {
 
 SiteRow siteRow(const GridField& field, const std::vector<std::uint16_t> received[4][2],
-                int colour, int y)
+                const PriceTable& table, int colour, int y)
 {
   const CheckerboardLayout& layout = field.layout();
-  SiteRow row =
-      makeSiteRow(layout, field.prices(), field.prices().leastPairwise(), colour, y);
+  SiteRow row = makeSiteRow(layout, field.prices(), table, colour, y);
   row.data = field.dataRow(colour, y, 0);
   for (int d = 0; d < DIRECTIONS; ++d)
     row.received[d] = received[d][colour].data() + layout.rowStart(y, row.labels);
@@ -47,6 +46,7 @@ std::uint16_t BeliefPropagation::sendMessages(int colour)
     return received_[direction][other].data() + layout.rowStart(y, field_.labels());
   };
   std::vector<std::uint16_t> change(static_cast<std::size_t>(layout.height), 0);
+  const PriceTable table(field_.prices());
   const ThreadTeam team(threads_);
   parallelRows(layout.height, threads_, [&](int y) {
     SendRow rows;
@@ -65,7 +65,7 @@ std::uint16_t BeliefPropagation::sendMessages(int colour)
     alignToSenders(rows, colour, y);
     KernelScratch scratch(field_.labels(), layout.stride);
     change[static_cast<std::size_t>(y)] =
-        sendWatchedRow(siteRow(field_, received_, colour, y), rows, scratch);
+        sendWatchedRow(siteRow(field_, received_, table, colour, y), rows, scratch);
   });
   return change.empty() ? std::uint16_t{0}
                         : *std::max_element(change.begin(), change.end());
@@ -88,12 +88,13 @@ std::vector<std::uint16_t> BeliefPropagation::mapLabels() const
   const CheckerboardLayout& layout = field_.layout();
   std::vector<std::uint16_t> labels(static_cast<std::size_t>(layout.width) *
                                     static_cast<std::size_t>(layout.height));
+  const PriceTable table(field_.prices());
   const ThreadTeam team(threads_);
   parallelRows(layout.height, threads_, [&](int y) {
     KernelScratch scratch(field_.labels(), layout.stride);
     for (int colour = 0; colour < 2; ++colour)
-      mapSites(siteRow(field_, received_, colour, y), layout.width, colour, y, scratch,
-               labels);
+      mapSites(siteRow(field_, received_, table, colour, y), layout.width, colour, y,
+               scratch, labels);
   });
   return labels;
 }

@@ -4,7 +4,9 @@
 // instruction set that the compiler knows; the best one is chosen at run time.
 #include "belief_propagation_kernel.h"
 
+#include <algorithm>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -64,161 +66,245 @@ struct Unwatched {
   }
 };
 
-/// What a site knows but for what the receiver told it, with its least and its most.
-struct Knowledge {
-  std::uint16_t* h; ///< a vector for each label
-  Vec least, most;
+/// A price that stands twice in 32 bits, for all sites: processors fill lanes of 32 bits
+/// as they load, those of 16 bits by one more step.
+HWY_INLINE Vec priceOf(std::uint32_t twice)
+{
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(Tag(), static_cast<std::uint16_t>(twice & 0xFFFFU));
+#else
+  return hn::BitCast(Tag(), hn::Set(hn::RepartitionToWide<Tag>(), twice));
+#endif
+}
+
+/// Labels whose messages are worked out at once, so that what is known of a third one is
+/// loaded for all of them: as many as leave all in registers.
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_NEON
+constexpr int TOGETHER = 2;
+#else
+constexpr int TOGETHER = 1;
+#endif
+
+/// A vector of sites that send their messages. What they know of a label but for what a
+/// neighbour told them, h, stands for the four neighbours one after the other.
+template <class Store>
+class Sender {
+public:
+  HWY_INLINE Sender(const SiteRow& row, const SendRow& send, KernelScratch& scratch,
+                    std::ptrdiff_t k, Store& store)
+  : row_(row)
+  , scratch_(scratch)
+  , store_(store)
+  , labels_(row.labels)
+  {
+    const Tag d;
+    for (int to = 0; to < DIRECTIONS; ++to) {
+      target_[to] = send.target[to] == nullptr ? nullptr : send.target[to] + k;
+      weight_[to] = send.target[to] == nullptr ? hn::Set(d, PairPrices::NO_EDGE)
+                                               : hn::LoadU(d, send.weight[to] + k);
+    }
+    learn(k);
+  }
+
+  /// Messages max(0, pairwise - weight): exact, with predecessors that cannot win skipped.
+  ///
+  /// m(b) = min over a of h(a) + price(a, b), and price(b, b) = 0. A label a != b can
+  /// beat h(b) only if h(a) + least price < h(b), hence only if h(a) + least price < max
+  /// h. The least value is that of h. No sum overflows: h has three of the four messages
+  /// that GridField allows for. Where there is no edge, nothing is told.
+  HWY_INLINE void sendSoftThreshold()
+  {
+    const Tag d;
+    const Vec least_price = hn::Set(d, row_.least_pairwise);
+    Vec heaviest = hn::Zero(d);
+    for (int to = 0; to < DIRECTIONS; ++to)
+      heaviest = hn::Max(heaviest, hn::IfThenElseZero(edge(to), weight_[to]));
+    findActive();
+    // Where no weight reaches the least price, all of it comes off whatever the labels
+    // are, and so off the least sum.
+    if (hn::AllFalse(d, hn::Lt(least_price, heaviest)))
+      sendAll<true>();
+    else
+      sendAll<false>();
+  }
+
+  /// Messages max(pairwise, scale * weight): the diagonal is not free, so every
+  /// predecessor counts and the least value of the message is not that of h.
+  HWY_INLINE void sendScaledMaximum()
+  {
+    for (int to = 0; to < DIRECTIONS; ++to)
+      if (target_[to] != nullptr)
+        sendScaledMaximum(to);
+  }
+
+private:
+  HWY_INLINE static std::size_t vectors(int count)
+  {
+    return static_cast<std::size_t>(count) * hn::Lanes(Tag());
+  }
+
+  HWY_INLINE Vec known(int label, int to) const
+  {
+    return hn::Load(Tag(), scratch_.h + vectors(DIRECTIONS * label + to));
+  }
+
+  HWY_INLINE hn::Mask<Tag> edge(int to) const
+  {
+    return hn::Ne(weight_[to], hn::Set(Tag(), PairPrices::NO_EDGE));
+  }
+
+  HWY_INLINE void learn(std::ptrdiff_t at)
+  {
+    const Tag d;
+    for (int to = 0; to < DIRECTIONS; ++to) {
+      least_[to] = hn::Set(d, PairPrices::NO_EDGE);
+      most_[to] = hn::Zero(d);
+    }
+    const SitePointers costs(row_);
+    std::uint16_t* h = scratch_.h;
+    for (int l = labels_; l > 0; --l, at += row_.label_stride) {
+      const Vec told[DIRECTIONS] = {
+          hn::LoadU(d, costs.left + at), hn::LoadU(d, costs.right + at),
+          hn::LoadU(d, costs.above + at), hn::LoadU(d, costs.below + at)};
+      const Vec belief =
+          hn::Add(hn::LoadU(d, costs.data + at),
+                  hn::Add(hn::Add(told[0], told[1]), hn::Add(told[2], told[3])));
+      for (int to = 0; to < DIRECTIONS; ++to, h += hn::Lanes(d)) {
+        const Vec rest = hn::Sub(belief, told[to]);
+        hn::Store(rest, d, h);
+        least_[to] = hn::Min(least_[to], rest);
+        most_[to] = hn::Max(most_[to], rest);
+      }
+    }
+  }
+
+  /// Predecessors that may win for one of the neighbours.
+  HWY_INLINE void findActive()
+  {
+    const Tag d;
+    const Vec least_price = hn::Set(d, row_.least_pairwise);
+    Vec limit[DIRECTIONS]; // what h has to be below to matter; nothing is below 0
+    for (int to = 0; to < DIRECTIONS; ++to)
+      limit[to] = hn::IfThenElseZero(
+          edge(to),
+          hn::SaturatedSub(most_[to], hn::SaturatedSub(least_price, weight_[to])));
+    count_ = 0;
+    for (int a = 0; a < labels_; ++a) {
+      scratch_.active[static_cast<std::size_t>(count_)] = a;
+      const auto first =
+          hn::Or(hn::Lt(known(a, 0), limit[0]), hn::Lt(known(a, 1), limit[1]));
+      const auto last =
+          hn::Or(hn::Lt(known(a, 2), limit[2]), hn::Lt(known(a, 3), limit[3]));
+      count_ += hn::AllFalse(d, hn::Or(first, last)) ? 0 : 1;
+    }
+  }
+
+  template <bool LIGHT>
+  HWY_INLINE void sendAll()
+  {
+    int b = 0;
+    for (; b + TOGETHER <= labels_; b += TOGETHER)
+      sendLabels<LIGHT, TOGETHER>(b);
+    for (; b < labels_; ++b)
+      sendLabels<LIGHT, 1>(b);
+  }
+
+  /// Sends what the sites say of labels b to b + LABELS - 1.
+  template <bool LIGHT, int LABELS>
+  HWY_INLINE void sendLabels(int b)
+  {
+    const Tag d;
+    const std::uint32_t* const prices =
+        row_.prices_twice + static_cast<std::ptrdiff_t>(b) * labels_;
+    Vec message[LABELS][DIRECTIONS];
+    for (int j = 0; j < LABELS; ++j)
+      for (int to = 0; to < DIRECTIONS; ++to)
+        message[j][to] = LIGHT ? hn::Set(d, PairPrices::NO_EDGE) : known(b + j, to);
+    const Vec w0 = weight_[0], w1 = weight_[1], w2 = weight_[2], w3 = weight_[3];
+    const int* const active = scratch_.active.data();
+    const int count = count_;
+    const std::uint16_t* const h = scratch_.h;
+    for (int i = 0; i < count; ++i) {
+      const int a = active[i];
+      const std::uint16_t* const at = h + vectors(DIRECTIONS * a);
+      const Vec h0 = hn::Load(d, at), h1 = hn::Load(d, at + hn::Lanes(d)),
+                h2 = hn::Load(d, at + 2 * hn::Lanes(d)),
+                h3 = hn::Load(d, at + 3 * hn::Lanes(d));
+      for (int j = 0; j < LABELS; ++j) {
+        const Vec price = priceOf(prices[j * labels_ + a]);
+        const auto over = [&](Vec w) HWY_ATTR {
+          return LIGHT ? price : hn::SaturatedSub(price, w);
+        };
+        message[j][0] = hn::Min(message[j][0], hn::Add(h0, over(w0)));
+        message[j][1] = hn::Min(message[j][1], hn::Add(h1, over(w1)));
+        message[j][2] = hn::Min(message[j][2], hn::Add(h2, over(w2)));
+        message[j][3] = hn::Min(message[j][3], hn::Add(h3, over(w3)));
+      }
+    }
+    for (int j = 0; j < LABELS; ++j)
+      for (int to = 0; to < DIRECTIONS; ++to) {
+        if (target_[to] == nullptr)
+          continue;
+        Vec least = message[j][to];
+        if (LIGHT)
+          least = hn::Min(known(b + j, to), hn::SaturatedSub(least, weight_[to]));
+        store_.store(hn::IfThenElseZero(edge(to), hn::Sub(least, least_[to])),
+                     target_[to] +
+                         static_cast<std::ptrdiff_t>(b + j) * row_.label_stride);
+      }
+  }
+
+  HWY_INLINE void sendScaledMaximum(int to)
+  {
+    const Tag d;
+    Vec least = hn::Set(d, PairPrices::NO_EDGE);
+    for (int b = 0; b < labels_; ++b) {
+      const std::ptrdiff_t pairs = static_cast<std::ptrdiff_t>(b) * labels_;
+      Vec best = hn::Set(d, PairPrices::NO_EDGE);
+      for (int a = 0; a < labels_; ++a) {
+        const Vec scaled = hn::MulHigh(hn::Set(d, row_.scale[pairs + a]), weight_[to]);
+        const Vec price = hn::Max(hn::Set(d, row_.pairwise[pairs + a]), scaled);
+        best = hn::Min(best, hn::Add(hn::Sub(known(a, to), least_[to]), price));
+      }
+      hn::Store(best, d, scratch_.message + vectors(b));
+      least = hn::Min(least, best);
+    }
+    for (int b = 0; b < labels_; ++b) {
+      const Vec best = hn::Load(d, scratch_.message + vectors(b));
+      store_.store(hn::IfThenElseZero(edge(to), hn::Sub(best, least)),
+                   target_[to] + static_cast<std::ptrdiff_t>(b) * row_.label_stride);
+    }
+  }
+
+  const SiteRow& row_;
+  KernelScratch& scratch_;
+  Store& store_;
+  int labels_;
+  int count_ = 0; ///< of the active predecessors
+  std::uint16_t* target_[DIRECTIONS];
+  Vec weight_[DIRECTIONS];
+  Vec least_[DIRECTIONS];
+  Vec most_[DIRECTIONS];
 };
-
-/// Messages max(0, pairwise - weight): exact, with predecessors that cannot win
-/// skipped.
-///
-/// m(b) = min over a of h(a) + price(a, b), and price(b, b) = 0. A label a != b can
-/// beat h(b) only if h(a) + least price < h(b), hence only if h(a) + least price < max
-/// h. The least value is that of h. No sum overflows: h has three of the four messages
-/// that GridField allows for. Where there is no edge, nothing is told.
-template <class Store>
-HWY_INLINE void sendSoftThreshold(const SiteRow& row, const Knowledge& site, Vec weight,
-                                  int* active, std::uint16_t* target, Store&& store)
-{
-  const Tag d;
-  const std::size_t lanes = hn::Lanes(d);
-  // What is written could be any of these, for all the compiler knows.
-  const int labels = row.labels;
-  const std::ptrdiff_t stride = row.label_stride;
-  const std::uint16_t* const h = site.h;
-  const Vec least = site.least;
-
-  const auto none = hn::Eq(weight, hn::Set(d, PairPrices::NO_EDGE));
-  const Vec cheapest = hn::SaturatedSub(hn::Set(d, row.least_pairwise), weight);
-  // What h has to be below to matter; nothing is below 0.
-  const Vec limit = hn::IfThenZeroElse(none, hn::SaturatedSub(site.most, cheapest));
-  int count = 0;
-  for (int a = 0; a < labels; ++a) {
-    active[count] = a;
-    count += hn::AllFalse(
-                 d, hn::Lt(hn::Load(d, h + static_cast<std::size_t>(a) * lanes), limit))
-                 ? 0
-                 : 1;
-  }
-
-  const std::uint16_t* prices = row.pairwise;
-  const std::uint16_t* own = h;
-  int b = 0;
-  // Two labels at once: what the site knows of a third one is loaded for both.
-  for (; b + 2 <= labels; b += 2, own += 2 * lanes, prices += 2 * labels) {
-    Vec message = hn::Load(d, own);
-    Vec next = hn::Load(d, own + lanes);
-    for (int i = 0; i < count; ++i) {
-      const auto a = static_cast<std::size_t>(active[i]);
-      const Vec known = hn::Load(d, h + a * lanes);
-      const Vec price = hn::SaturatedSub(hn::Set(d, prices[a]), weight);
-      const Vec next_price = hn::SaturatedSub(
-          hn::Set(d, prices[a + static_cast<std::size_t>(labels)]), weight);
-      message = hn::Min(message, hn::Add(known, price));
-      next = hn::Min(next, hn::Add(known, next_price));
-    }
-    store.store(hn::IfThenZeroElse(none, hn::Sub(message, least)), target);
-    store.store(hn::IfThenZeroElse(none, hn::Sub(next, least)), target + stride);
-    target += 2 * stride;
-  }
-  if (b < labels) {
-    Vec message = hn::Load(d, own);
-    for (int i = 0; i < count; ++i) {
-      const auto a = static_cast<std::size_t>(active[i]);
-      const Vec price = hn::SaturatedSub(hn::Set(d, prices[a]), weight);
-      message = hn::Min(message, hn::Add(hn::Load(d, h + a * lanes), price));
-    }
-    store.store(hn::IfThenZeroElse(none, hn::Sub(message, least)), target);
-  }
-}
-
-/// Messages max(pairwise, scale * weight): the diagonal is not free, so every
-/// predecessor counts and the least value of the message is not that of h.
-template <class Store>
-HWY_INLINE void sendScaledMaximum(const SiteRow& row, const Knowledge& site, Vec weight,
-                                  std::uint16_t* message, std::uint16_t* target,
-                                  Store&& store)
-{
-  const Tag d;
-  const std::size_t lanes = hn::Lanes(d);
-  Vec least = hn::Set(d, PairPrices::NO_EDGE);
-  for (int b = 0; b < row.labels; ++b) {
-    const std::ptrdiff_t pairs = static_cast<std::ptrdiff_t>(b) * row.labels;
-    Vec best = hn::Set(d, PairPrices::NO_EDGE);
-    for (int a = 0; a < row.labels; ++a) {
-      const Vec scaled = hn::MulHigh(hn::Set(d, row.scale[pairs + a]), weight);
-      const Vec price = hn::Max(hn::Set(d, row.pairwise[pairs + a]), scaled);
-      const Vec h = hn::Load(d, site.h + static_cast<std::size_t>(a) * lanes);
-      best = hn::Min(best, hn::Add(hn::Sub(h, site.least), price));
-    }
-    hn::Store(best, d, message + static_cast<std::size_t>(b) * lanes);
-    least = hn::Min(least, best);
-  }
-  const auto none = hn::Eq(weight, hn::Set(d, PairPrices::NO_EDGE));
-  for (int b = 0; b < row.labels; ++b) {
-    const Vec best = hn::Load(d, message + static_cast<std::size_t>(b) * lanes);
-    store.store(hn::IfThenZeroElse(none, hn::Sub(best, least)),
-                target + static_cast<std::ptrdiff_t>(b) * row.label_stride);
-  }
-}
-
-/// All that a vector of sites knows but for what one neighbour told them.
-HWY_INLINE Knowledge withoutMessage(const SiteRow& row, const std::uint16_t* beliefs,
-                                    const std::uint16_t* received, std::uint16_t* h)
-{
-  const Tag d;
-  const std::size_t lanes = hn::Lanes(d);
-  const std::ptrdiff_t stride = row.label_stride;
-  Vec least = hn::Set(d, PairPrices::NO_EDGE);
-  Vec most = hn::Zero(d);
-  std::uint16_t* to = h;
-  for (int l = row.labels; l > 0; --l) {
-    const Vec rest = hn::Sub(hn::Load(d, beliefs), hn::LoadU(d, received));
-    hn::Store(rest, d, to);
-    least = hn::Min(least, rest);
-    most = hn::Max(most, rest);
-    beliefs += lanes;
-    to += lanes;
-    received += stride;
-  }
-  return {h, least, most};
-}
 
 template <class Store>
 HWY_INLINE void sendMessages(const SiteRow& row, const SendRow& send,
                              KernelScratch& scratch, Store&& store)
 {
-  const Tag d;
-  std::uint16_t* const beliefs = scratch.belief;
-  std::uint16_t* const h = scratch.h;
-  int* const active = scratch.active.data();
-  const int labels = row.labels;
-  const SitePointers costs(row);
   for (std::ptrdiff_t k = 0; k < row.sites;
-       k += static_cast<std::ptrdiff_t>(hn::Lanes(d))) {
-    std::ptrdiff_t at = k;
-    for (int l = 0; l < labels; ++l, at += row.label_stride)
-      hn::Store(costs.belief(at), d,
-                beliefs + static_cast<std::size_t>(l) * hn::Lanes(d));
-    for (int direction = 0; direction < DIRECTIONS; ++direction) {
-      if (send.target[direction] == nullptr)
-        continue;
-      const Knowledge site =
-          withoutMessage(row, beliefs, row.received[direction] + k, h);
-      const Vec weight = hn::LoadU(d, send.weight[direction] + k);
-      std::uint16_t* const target = send.target[direction] + k;
-      if (row.model == EdgeModel::SOFT_THRESHOLD)
-        sendSoftThreshold(row, site, weight, active, target, store);
-      else
-        sendScaledMaximum(row, site, weight, scratch.message, target, store);
-    }
+       k += static_cast<std::ptrdiff_t>(hn::Lanes(Tag()))) {
+    Sender<std::remove_reference_t<Store>> sites(row, send, scratch, k, store);
+    if (row.model == EdgeModel::SOFT_THRESHOLD)
+      sites.sendSoftThreshold();
+    else
+      sites.sendScaledMaximum();
   }
 }
 
 void SendMessages(const SiteRow& row, const SendRow& send, KernelScratch& scratch)
 {
-  sendMessages(row, send, scratch, Unwatched());
+  const Unwatched store;
+  sendMessages(row, send, scratch, store);
 }
 
 std::uint16_t SendWatchedMessages(const SiteRow& row, const SendRow& send,
@@ -270,20 +356,33 @@ constexpr std::size_t ALIGNMENT = 64;                       // bytes, of any vec
 
 } // namespace
 
+PriceTable::PriceTable(const PairPrices& prices)
+: twice_(static_cast<std::size_t>(prices.labels()) *
+         static_cast<std::size_t>(prices.labels()))
+, least_(prices.leastPairwise())
+{
+  const std::uint16_t* const pairwise = prices.pairwiseMatrix();
+  std::transform(pairwise, pairwise + twice_.size(), twice_.begin(),
+                 [](std::uint16_t price) { return price * 0x10001U; });
+  const std::uint32_t same = prices.labels() > 1 ? least_ * 0x10001U : 0;
+  for (std::size_t l = 0; l < twice_.size();
+       l += static_cast<std::size_t>(prices.labels()) + 1)
+    twice_[l] = same;
+}
+
 KernelScratch::KernelScratch(int labels, int layout_stride)
 : active(static_cast<std::size_t>(labels))
 , row(static_cast<std::size_t>(layout_stride))
-, buffer_(3 * static_cast<std::size_t>(labels) * VECTOR + ALIGNMENT)
+, buffer_((DIRECTIONS + 1) * static_cast<std::size_t>(labels) * VECTOR + ALIGNMENT)
 {
   void* start = buffer_.data();
   std::size_t space = buffer_.size() * sizeof(std::uint16_t);
-  belief = static_cast<std::uint16_t*>(std::align(ALIGNMENT, 1, start, space));
-  h = belief + static_cast<std::size_t>(labels) * VECTOR;
-  message = h + static_cast<std::size_t>(labels) * VECTOR;
+  h = static_cast<std::uint16_t*>(std::align(ALIGNMENT, 1, start, space));
+  message = h + DIRECTIONS * static_cast<std::size_t>(labels) * VECTOR;
 }
 
 SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
-                    std::uint16_t least_pairwise, int colour, int y)
+                    const PriceTable& table, int colour, int y)
 {
   SiteRow row;
   row.sites = layout.sitesInRow(y, colour);
@@ -292,7 +391,8 @@ SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
   row.model = prices.edgeModel();
   row.pairwise = prices.pairwiseMatrix();
   row.scale = prices.scaleMatrix();
-  row.least_pairwise = least_pairwise;
+  row.prices_twice = table.twice();
+  row.least_pairwise = table.least();
   return row;
 }
 

@@ -17,6 +17,22 @@ constexpr int opposite(int direction)
   return direction ^ 1;
 }
 
+/// The prices of pairs as the message kernels read them.
+class PriceTable {
+public:
+  explicit PriceTable(const PairPrices& prices);
+
+  /// L x L, each price in both halves of its 32 bits. On the diagonal stands the least one
+  /// of any two labels: a label by way of itself is never better than without.
+  const std::uint32_t* twice() const { return twice_.data(); }
+  /// Least cost of two different labels; NO_EDGE for a single label.
+  std::uint16_t least() const { return least_; }
+
+private:
+  FrameVector<std::uint32_t> twice_;
+  std::uint16_t least_;
+};
+
 /// One row of sites of one colour, as the message kernels see it. A row pointer leads
 /// to label 0; label l is l * label_stride elements further on.
 struct SiteRow {
@@ -24,9 +40,10 @@ struct SiteRow {
   int labels = 0;       ///< L
   int label_stride = 0; ///< elements from a label's row to the next label's
   EdgeModel model = EdgeModel::SOFT_THRESHOLD;
-  const std::uint16_t* pairwise = nullptr; ///< L x L
-  const std::uint16_t* scale = nullptr;    ///< L x L
-  std::uint16_t least_pairwise = 0;        ///< least cost of two different labels
+  const std::uint16_t* pairwise = nullptr;     ///< L x L
+  const std::uint32_t* prices_twice = nullptr; ///< L x L: PriceTable::twice()
+  const std::uint16_t* scale = nullptr;        ///< L x L
+  std::uint16_t least_pairwise = 0;            ///< least cost of two different labels
   const std::uint16_t* data = nullptr;
   const std::uint16_t* received[DIRECTIONS] = {}; ///< by the sender's direction
 };
@@ -42,8 +59,7 @@ struct SendRow {
 struct KernelScratch {
   explicit KernelScratch(int labels, int layout_stride);
 
-  std::uint16_t* belief;  ///< a vector for each label
-  std::uint16_t* h;       ///< a vector for each label
+  std::uint16_t* h;       ///< a vector for each label and direction
   std::uint16_t* message; ///< a vector for each label
   FrameVector<int> active;
   FrameVector<std::uint16_t> row; ///< a row of labels
@@ -54,7 +70,7 @@ private:
 
 /// The parts of a SiteRow that do not depend on where its messages are kept.
 SiteRow makeSiteRow(const CheckerboardLayout& layout, const PairPrices& prices,
-                    std::uint16_t least_pairwise, int colour, int y);
+                    const PriceTable& table, int colour, int y);
 
 /// Shifts rows of the other colour so that each element lines up with its sender.
 /// Before, weight[LEFT] holds the right edges of the other colour's sites of the same

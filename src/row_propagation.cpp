@@ -53,7 +53,7 @@ public:
   , bottom_(std::min(layout_.height, last + iterations))
   , sent_(decides(field, iterations, gaps) ? iterations - 1 : iterations)
   , ring_(std::min(iterations + 3, bottom_ - top_))
-  , least_pairwise_(field.prices().leastPairwise())
+  , table_(field.prices())
   , cheapest_(cheapestPairs(field.prices()))
   , scratch_(labels_, layout_.stride)
   , decision_scratch_(labels_, layout_.stride)
@@ -154,7 +154,7 @@ private:
 
   SiteRow siteRow(int colour, int y)
   {
-    SiteRow row = makeSiteRow(layout_, field_.prices(), least_pairwise_, colour, y);
+    SiteRow row = makeSiteRow(layout_, field_.prices(), table_, colour, y);
     row.data = fieldRow(y).data[colour];
     for (int d = 0; d < DIRECTIONS; ++d)
       row.received[d] = received(d, colour, y);
@@ -212,7 +212,7 @@ private:
   int top_, bottom_; // rows to work on
   int sent_;         // iterations whose messages are sent
   int ring_;         // rows in memory
-  std::uint16_t least_pairwise_;
+  PriceTable table_;
   FrameVector<std::uint16_t> cheapest_;
   KernelScratch scratch_;
   DecisionScratch decision_scratch_;
