@@ -112,16 +112,17 @@ LabelRuns findRuns(const std::vector<std::uint16_t>& labels, int width,
       out.rows[row + 1] = runs.size(); // as yet of the band
     }
   });
-  std::size_t count = 0;
+  FrameVector<std::size_t> first = {0}; // run of each band
   for (const FrameVector<LabelRun>& runs : parts)
-    count += runs.size();
-  out.runs.reserve(count);
-  for (int band = 0; band < bands.count; ++band) {
+    first.push_back(first.back() + runs.size());
+  out.runs.resize(first.back());
+  parallelParts(bands.count, threads, [&](int band) {
+    const auto b = static_cast<std::size_t>(band);
     for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
-      out.rows[static_cast<std::size_t>(r) + 1] += out.runs.size();
-    const FrameVector<LabelRun>& runs = parts[static_cast<std::size_t>(band)];
-    out.runs.insert(out.runs.end(), runs.begin(), runs.end());
-  }
+      out.rows[static_cast<std::size_t>(r) + 1] += first[b];
+    std::copy(parts[b].begin(), parts[b].end(),
+              out.runs.begin() + static_cast<std::ptrdiff_t>(first[b]));
+  });
   return out;
 }
 
@@ -199,14 +200,25 @@ void fillRun(const LabelRun& run, std::uint16_t label,
             labels.begin() + static_cast<std::ptrdiff_t>(run.end), label);
 }
 
-RunParts connectRuns(const LabelRuns& image)
+RunParts connectRuns(const LabelRuns& image, unsigned int threads)
 {
   Roots roots(image.runs.size());
-  for (std::size_t row = 0; row + 2 < image.rows.size(); ++row)
-    forEachOverlap(image, row, [&](std::size_t a, std::size_t b) {
-      if (image.runs[a].label == image.runs[b].label)
-        roots.join(a, b);
-    });
+  const auto joinNext = [&](int row) {
+    forEachOverlap(image, static_cast<std::size_t>(row),
+                   [&](std::size_t a, std::size_t b) {
+                     if (image.runs[a].label == image.runs[b].label)
+                       roots.join(a, b);
+                   });
+  };
+  // Bands by themselves, then what lies on either side of their borders: the root of a part
+  // is its first run in any order.
+  const Bands bands(std::max(0, static_cast<int>(image.rows.size()) - 1), 4);
+  parallelParts(bands.count, threads, [&](int band) {
+    for (int row = bands.begin(band); row + 1 < bands.begin(band + 1); ++row)
+      joinNext(row);
+  });
+  for (int band = 1; band < bands.count; ++band)
+    joinNext(bands.begin(band) - 1);
 
   RunParts parts;
   for (std::size_t k = 0; k < image.runs.size(); ++k) {

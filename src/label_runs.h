@@ -61,7 +61,7 @@ struct RunParts {
 };
 
 /// Joins runs of the same label that lie above one another. O(runs)
-RunParts connectRuns(const LabelRuns& image);
+RunParts connectRuns(const LabelRuns& image, unsigned int threads = 1);
 
 /// Calls overlap(a, b) for each run a of a row and each b of the next row that have a
 /// column in common, from left to right; of any labels.

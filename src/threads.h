@@ -90,7 +90,7 @@ template <typename Sum, typename Add>
 Sum sumOfBands(int rows, unsigned int threads, const Sum& none, const Add& add)
 {
   constexpr int FEW =
-      4; // each has a sum of its own, of as many numbers as there are labels
+      8; // each has a sum of its own, of as many numbers as there are labels
   const Bands bands(rows, FEW);
   FrameVector<Sum> sums(static_cast<std::size_t>(bands.count), none);
   parallelParts(bands.count, threads, [&](int band) {

@@ -15,11 +15,13 @@
 #include "adaptive/workspace.h"
 #include "region_gathering.h"
 #include "stage_timer.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -40,20 +42,30 @@ std::size_t countTiles(const std::vector<TileLevel>& pyramid)
 }
 
 /// Runs of labels from 1, with 0 for none, as those of label planes from 0.
-LabelRuns planeRuns(const LabelRuns& image)
+LabelRuns planeRuns(const LabelRuns& image, unsigned int threads)
 {
   LabelRuns out;
   out.width = image.width;
-  out.runs.reserve(image.runs.size());
-  out.rows.reserve(image.rows.size());
-  out.rows.push_back(0);
-  for (std::size_t row = 0; row + 1 < image.rows.size(); ++row) {
-    for (std::size_t k = image.rows[row]; k < image.rows[row + 1]; ++k)
-      if (const LabelRun& run = image.runs[k]; run.label != 0)
-        out.runs.push_back(
-            {run.begin, run.end, static_cast<std::uint16_t>(run.label - 1)});
-    out.rows.push_back(out.runs.size());
-  }
+  out.rows.resize(image.rows.size(), 0);
+  const int rows = static_cast<int>(image.rows.size()) - 1;
+  const auto forEachRun = [&](int row, const auto& visit) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k)
+      if (image.runs[k].label != 0)
+        visit(image.runs[k]);
+  };
+  parallelRows(rows, threads, [&](int row) {
+    forEachRun(row,
+               [&](const LabelRun&) { ++out.rows[static_cast<std::size_t>(row) + 1]; });
+  });
+  std::partial_sum(out.rows.begin(), out.rows.end(), out.rows.begin());
+  out.runs.resize(out.rows.back());
+  parallelRows(rows, threads, [&](int row) {
+    std::size_t k = out.rows[static_cast<std::size_t>(row)];
+    forEachRun(row, [&](const LabelRun& run) {
+      out.runs[k++] = {run.begin, run.end, static_cast<std::uint16_t>(run.label - 1)};
+    });
+  });
   return out;
 }
 
@@ -108,7 +120,8 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   if (observer != nullptr)
     observer->seeRegions(Stage::MERGED, regions, pyramid[0]);
   if (parameters.join_coplanar)
-    regions = joinCoplanar(std::move(regions), points, pyramid[0], noise, parameters);
+    regions = joinCoplanar(std::move(regions), points, pyramid[0], noise, parameters,
+                           threads);
   if (observer != nullptr && parameters.join_coplanar)
     observer->seeRegions(Stage::JOINED, regions, pyramid[0]);
   report.planes_after_merging = regions.planes.size();
@@ -207,7 +220,7 @@ void adaptive::segmentObserved(const OrganizedPoints& points,
   }
   std::vector<Plane>& planes = workspace.regions.planes;
   planes.assign(found.fitted.planes.begin(), found.fitted.planes.end());
-  const LabelRuns runs = planeRuns(found.image.runs);
+  const LabelRuns runs = planeRuns(found.image.runs, parameters.number_of_threads);
   gatherRegions(points, runs, {found.fitted.sums.begin(), found.fitted.sums.end()},
                 parameters.min_inliers, parameters.min_area,
                 parameters.number_of_threads, workspace.regions, result.regions);

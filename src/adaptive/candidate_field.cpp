@@ -143,7 +143,8 @@ private:
 };
 
 /// Puts the parts of a field together, in their order.
-void joinParts(std::vector<FieldPart>& parts, CandidateField& field)
+void joinParts(std::vector<FieldPart>& parts, unsigned int threads,
+               CandidateField& field)
 {
   if (parts.size() == 1) {
     for (std::size_t a = 0; a < parts[0].active.size(); ++a)
@@ -154,19 +155,30 @@ void joinParts(std::vector<FieldPart>& parts, CandidateField& field)
     std::swap(field.weight, parts[0].weight);
     return;
   }
-  field.active.clear();
-  field.first.clear();
-  field.data.clear();
-  field.weight.clear();
-  for (const FieldPart& part : parts) {
-    for (std::size_t a = 0; a < part.active.size(); ++a) {
-      field.number[part.active[a]] = field.active.size() + a;
-      field.first.push_back(field.data.size() + part.first[a]);
-    }
-    field.active.insert(field.active.end(), part.active.begin(), part.active.end());
-    field.data.insert(field.data.end(), part.data.begin(), part.data.end());
-    field.weight.insert(field.weight.end(), part.weight.begin(), part.weight.end());
+  struct Start {
+    std::size_t active = 0, data = 0;
+  };
+  FrameVector<Start> starts(parts.size() + 1);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    starts[k + 1].active = starts[k].active + parts[k].active.size();
+    starts[k + 1].data = starts[k].data + parts[k].data.size();
   }
+  field.active.resize(starts.back().active);
+  field.first.resize(starts.back().active);
+  field.weight.resize(starts.back().active);
+  field.data.resize(starts.back().data);
+  parallelParts(static_cast<int>(parts.size()), threads, [&](int number) {
+    const FieldPart& part = parts[static_cast<std::size_t>(number)];
+    const Start& start = starts[static_cast<std::size_t>(number)];
+    for (std::size_t a = 0; a < part.active.size(); ++a) {
+      field.number[part.active[a]] = start.active + a;
+      field.active[start.active + a] = part.active[a];
+      field.first[start.active + a] = start.data + part.first[a];
+      field.weight[start.active + a] = part.weight[a];
+    }
+    std::copy(part.data.begin(), part.data.end(),
+              field.data.begin() + static_cast<std::ptrdiff_t>(start.data));
+  });
 }
 
 } // namespace
@@ -207,7 +219,7 @@ void buildField(const OrganizedPoints& points, const TileRegions& regions,
     for (int row = bands.begin(band); row < bands.begin(band + 1); ++row)
       builder.addRow(row);
   });
-  joinParts(parts, field);
+  joinParts(parts, threads, field);
 }
 
 } // namespace pcl_mrf_planes::adaptive

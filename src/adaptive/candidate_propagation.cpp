@@ -79,10 +79,13 @@ public:
   , places_(field.active.size())
   , strips_(field, threadCount(threads))
   {
-    received_.assign(field.data.size(), Messages());
+    received_.resize(field.data.size());
     parallelRows(blocks_.rows, threads, [&](int row) {
-      for (std::size_t a = strips_.first(row, 0); a < strips_.first(row + 1, 0); ++a)
+      for (std::size_t a = strips_.first(row, 0); a < strips_.first(row + 1, 0); ++a) {
+        std::fill_n(received_.begin() + static_cast<std::ptrdiff_t>(field.first[a]),
+                    SIDE * blocks_.count[field.active[a]], Messages());
         settleIn(a, row);
+      }
     });
   }
 

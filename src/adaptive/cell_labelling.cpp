@@ -225,10 +225,13 @@ TileRegions labelCells(const TileRegions& regions,
     out.sums.push_back(sums[k]);
   }
   out.cell_region.resize(field.labels().size());
-  std::transform(field.labels().begin(), field.labels().end(), out.cell_region.begin(),
-                 [&](int label) {
-                   return label < 0 ? NONE : id[static_cast<std::size_t>(label)];
-                 });
+  parallelRows(pyramid[0].rows, threads, [&](int row) {
+    for (std::size_t cell = pyramid[0].at(0, row); cell < pyramid[0].at(0, row + 1);
+         ++cell) {
+      const int label = field.labels()[cell];
+      out.cell_region[cell] = label < 0 ? NONE : id[static_cast<std::size_t>(label)];
+    }
+  });
   return out;
 }
 

@@ -34,6 +34,9 @@ public:
   const CellRun* begin(int r) const { return runs_.data() + start(r); }
   const CellRun* end(int r) const { return runs_.data() + start(r + 1); }
 
+  /// Of all rows.
+  std::size_t size() const { return runs_.size(); }
+
 private:
   void addRow(const int* region, int columns)
   {

@@ -3,6 +3,7 @@
 #include "adaptive/plane_merging.h"
 #include "adaptive/region_graph.h"
 #include "frame_memory.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,7 +110,7 @@ public:
     constexpr int WALKS = 12;
     const SpanRange from = members_.of(a);
     const SpanRange to = members_.of(b);
-    Walked walked;
+    FrameVector<Way> ways;
     int gap = std::numeric_limits<int>::max();
     const int stride = std::max(1, from.cells / WALKS);
     int next = stride / 2; // cell to start from
@@ -118,15 +119,23 @@ public:
         const Cell cell = {span.begin + next, span.row};
         const Cell nearest = nearestOf(to, cell);
         gap = std::min(gap, squaredDistance(cell, nearest));
-        walk(plane, tolerance, cell, nearest, walked);
+        ways.push_back({cell, nearest});
       }
       next -= span.end - span.begin;
     }
-    return walked.off_plane <= parameters_.join_seen * walked.points &&
-           gap <= widest(a, b);
+    if (gap > widest(a, b))
+      return false;
+    Walked walked;
+    for (const Way& way : ways)
+      walk(plane, tolerance, way, walked);
+    return walked.off_plane <= parameters_.join_seen * walked.points;
   }
 
 private:
+  struct Way {
+    Cell from, to;
+  };
+
   struct Walked {
     int points = 0;
     int off_plane = 0;
@@ -182,21 +191,47 @@ private:
     return std::min(cell * side_ + side_ / 2, size - 1);
   }
 
+  /// One coordinate along a straight way: start + way * k / steps, without a division for
+  /// each k, as it grows by no more than one.
+  class Coordinate {
+  public:
+    Coordinate(int start, int way, int steps)
+    : at_(start)
+    , sign_(way < 0 ? -1 : 1)
+    , length_(std::abs(way))
+    , steps_(steps)
+    {}
+
+    int next()
+    {
+      rest_ += length_;
+      if (rest_ >= steps_) {
+        rest_ -= steps_;
+        at_ += sign_;
+      }
+      return at_;
+    }
+
+  private:
+    int at_, sign_, length_, steps_;
+    int rest_ = 0;
+  };
+
   /// Counts the points on the straight way between the middles of two cells.
-  void walk(const FittedPlane& plane, double tolerance, const Cell& from,
-            const Cell& to, Walked& walked) const
+  void walk(const FittedPlane& plane, double tolerance, const Way& way,
+            Walked& walked) const
   {
-    const int u0 = middle(from.column, points_.width);
-    const int v0 = middle(from.row, points_.height);
-    const int du = middle(to.column, points_.width) - u0;
-    const int dv = middle(to.row, points_.height) - v0;
+    const int u0 = middle(way.from.column, points_.width);
+    const int v0 = middle(way.from.row, points_.height);
+    const int du = middle(way.to.column, points_.width) - u0;
+    const int dv = middle(way.to.row, points_.height) - v0;
     const int steps = std::max(std::abs(du), std::abs(dv));
+    Coordinate u(u0, du, steps);
+    Coordinate v(v0, dv, steps);
     for (int k = 1; k < steps; ++k) {
-      const int u = u0 + du * k / steps;
-      const int v = v0 + dv * k / steps;
-      const std::size_t i =
-          static_cast<std::size_t>(v) * static_cast<std::size_t>(points_.width) +
-          static_cast<std::size_t>(u);
+      const auto row = static_cast<std::size_t>(v.next());
+      const std::size_t i = row * static_cast<std::size_t>(points_.width) +
+                            static_cast<std::size_t>(u.next());
       if (points_.valid[i] == 0)
         continue;
       ++walked.points;
@@ -218,7 +253,7 @@ private:
 
 TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
                          const TileLevel& cells, const NoiseLaw& noise,
-                         const AdaptiveParameters& parameters)
+                         const AdaptiveParameters& parameters, unsigned int threads)
 {
   constexpr double LEAST_COSINE = 0.9; // of the normals: spares most of the fits
   constexpr double BEHIND = 3.0;       // sigmas
@@ -233,16 +268,22 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
     return dissimilarity(regions.plane(a), regions.plane(b), joint, noise, parameters);
   };
 
+  const Bands bands(regions.size());
+  FrameVector<FrameVector<Candidate>> found(static_cast<std::size_t>(bands.count));
+  parallelParts(bands.count, threads, [&](int band) {
+    for (int a = bands.begin(band); a < bands.begin(band + 1); ++a)
+      for (int b = a + 1; b < regions.size(); ++b) {
+        if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||
+            !gap.mayBeNarrow(a, b))
+          continue;
+        const double c = cost(a, b, jointOf(a, b));
+        if (c >= 0 && c <= limit)
+          found[static_cast<std::size_t>(band)].push_back({c, a, b, 0});
+      }
+  });
   FrameVector<Candidate> pairs;
-  for (int a = 0; a < regions.size(); ++a)
-    for (int b = a + 1; b < regions.size(); ++b) {
-      if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||
-          !gap.mayBeNarrow(a, b))
-        continue;
-      const double c = cost(a, b, jointOf(a, b));
-      if (c >= 0 && c <= limit)
-        pairs.push_back({c, a, b, 0});
-    }
+  for (const FrameVector<Candidate>& some : found)
+    pairs.insert(pairs.end(), some.begin(), some.end());
   std::sort(pairs.begin(), pairs.end(),
             [](const Candidate& p, const Candidate& q) { return q < p; });
 
@@ -260,7 +301,8 @@ TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
     if (gap.mayHidePlane(pair.a, pair.b, joint, tolerance))
       regions.merge(a, b, joint);
   }
-  return collect(regions, std::move(parts.cell_region), 0.5 * parameters.min_points);
+  return collect(regions, std::move(parts.cell_region), 0.5 * parameters.min_points,
+                 threads);
 }
 
 } // namespace pcl_mrf_planes::adaptive

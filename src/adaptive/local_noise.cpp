@@ -14,12 +14,15 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 /// Noise of the points of each tile over that of the whole cloud; 0 where it has no plane.
-FrameVector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise)
+FrameVector<double> noiseRatios(const TileLevel& level, const NoiseLaw& noise,
+                                unsigned int threads)
 {
   FrameVector<double> ratios(level.planes.size(), 0.0);
-  for (std::size_t i = 0; i < ratios.size(); ++i)
-    if (const FittedPlane& p = level.planes[i]; p.n > 3)
-      ratios[i] = unbiasedRms(p) / noise.small(p.centroid.norm());
+  parallelRows(level.rows, threads, [&](int r) {
+    for (std::size_t i = level.at(0, r); i < level.at(0, r + 1); ++i)
+      if (const FittedPlane& p = level.planes[i]; p.n > 3)
+        ratios[i] = unbiasedRms(p) / noise.small(p.centroid.norm());
+  });
   return ratios;
 }
 
@@ -71,7 +74,7 @@ FrameVector<double> localFactors(const TileLevel& level, const TileLevel& square
 {
   constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
-  const FrameVector<double> ratios = noiseRatios(level, noise);
+  const FrameVector<double> ratios = noiseRatios(level, noise, threads);
   const TileCounts with_plane(level, [&](std::size_t i) { return ratios[i] > 0; });
   const TileCounts quiet(
       level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });

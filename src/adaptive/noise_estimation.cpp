@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -40,26 +41,88 @@ double typicalRms(FrameVector<double>& rms, double p, double z)
   return std::min(typical, MOST * quiet);
 }
 
+/// Samples in bins of as many each, the nearest first. Within a bin they are in no order but
+/// for the one in the middle: that is all that is asked for, and halves can be told apart at
+/// once.
+class DepthBins {
+public:
+  DepthBins(FrameVector<Sample> samples, std::size_t bins, unsigned int threads)
+  : samples_(std::move(samples))
+  , bins_(bins)
+  {
+    const std::size_t half = bins / 2;
+    partAt(0, begin(half), samples_.size());
+    parallelParts(2, threads, [&](int part) {
+      if (part == 0)
+        split(0, half);
+      else
+        split(half, bins_);
+    });
+  }
+
+  /// Typical depth and rms distance of a bin. \param[in] p percentile
+  Sample typical(std::size_t bin, double p) const
+  {
+    FrameVector<double> rms;
+    rms.reserve(begin(bin + 1) - begin(bin));
+    for (std::size_t i = begin(bin); i < begin(bin + 1); ++i)
+      rms.push_back(samples_[i].rms);
+    const double z = samples_[middle(bin)].z;
+    return {z, std::max(typicalRms(rms, p, z), 1e-7)};
+  }
+
+private:
+  std::size_t begin(std::size_t bin) const { return bin * samples_.size() / bins_; }
+  std::size_t middle(std::size_t bin) const
+  {
+    return (begin(bin) + begin(bin + 1)) / 2;
+  }
+
+  /// Brings bins \a first to \a last - 1 apart, which have all samples between their ends.
+  void split(std::size_t first, std::size_t last)
+  {
+    if (last - first > 1) {
+      const std::size_t half = (first + last) / 2;
+      partAt(begin(first), begin(half), begin(last));
+      split(first, half);
+      split(half, last);
+    }
+    else if (last > first)
+      partAt(begin(first), middle(first), begin(last));
+  }
+
+  /// What lies before \a i is no farther then, what lies behind it no nearer.
+  void partAt(std::size_t first, std::size_t i, std::size_t last)
+  {
+    const auto at = [&](std::size_t k) {
+      return samples_.begin() + static_cast<std::ptrdiff_t>(k);
+    };
+    if (i < last)
+      std::nth_element(at(first), at(i), at(last),
+                       [](const Sample& s, const Sample& t) {
+                         return s.z < t.z || (s.z == t.z && s.rms < t.rms);
+                       });
+  }
+
+  FrameVector<Sample> samples_;
+  std::size_t bins_;
+};
+
 /// rms = a + c z^2 over depth bins, relative least squares, a and c not negative
-void fitDepthLaw(FrameVector<Sample> samples, double p, NoiseLaw& noise)
+void fitDepthLaw(FrameVector<Sample> samples, double p, unsigned int threads,
+                 NoiseLaw& noise)
 {
   if (samples.empty())
     return;
-  std::sort(samples.begin(), samples.end(), [](const Sample& s, const Sample& t) {
-    return s.z < t.z || (s.z == t.z && s.rms < t.rms);
+  const std::size_t count = std::min<std::size_t>(8, 1 + samples.size() / 40);
+  const DepthBins bins(std::move(samples), count, threads);
+  FrameVector<Sample> typical(count);
+  parallelParts(static_cast<int>(count), threads, [&](int bin) {
+    const auto k = static_cast<std::size_t>(bin);
+    typical[k] = bins.typical(k, p);
   });
-  const std::size_t bins = std::min<std::size_t>(8, 1 + samples.size() / 40);
   double s00 = 0, s01 = 0, s11 = 0, b0 = 0, b1 = 0;
-  FrameVector<double> rms;
-  rms.reserve(samples.size() / bins + 1);
-  for (std::size_t k = 0; k < bins; ++k) {
-    const std::size_t i0 = k * samples.size() / bins;
-    const std::size_t i1 = (k + 1) * samples.size() / bins;
-    rms.clear();
-    for (std::size_t i = i0; i < i1; ++i)
-      rms.push_back(samples[i].rms);
-    const double z = samples[(i0 + i1) / 2].z;
-    const double r = std::max(typicalRms(rms, p, z), 1e-7);
+  for (const auto& [z, r] : typical) {
     const double u = 1 / r, v = z * z / r;
     s00 += u * u;
     s01 += u * v;
@@ -193,7 +256,7 @@ FrameVector<double> growthRatios(const TileLevel& level, const TileLevel& below,
 {
   // The smallest tiles have no planes yet; some of them tell enough.
   const int step = below.planes.empty() ? 3 : 1;
-  const Bands bands((level.rows + step - 1) / step, 4);
+  const Bands bands((level.rows + step - 1) / step);
   FrameVector<FrameVector<double>> parts(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {
     FrameVector<double>& ratios = parts[static_cast<std::size_t>(band)];
@@ -252,7 +315,7 @@ NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
   for (std::size_t i = 0; i < planes.size(); i += step)
     if (const FittedPlane& p = planes[i]; p.n > 3)
       samples.push_back({p.centroid.norm(), unbiasedRms(p)});
-  fitDepthLaw(std::move(samples), parameters.noise_percentile, noise);
+  fitDepthLaw(std::move(samples), parameters.noise_percentile, threads, noise);
   estimateGrowth(pyramid, parameters, threads, noise);
   return noise;
 }

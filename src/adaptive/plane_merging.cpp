@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
@@ -32,40 +34,43 @@ bool isPlane(const FittedPlane& plane, double least, const NoiseLaw& noise,
 
 namespace {
 
-void linkTiles(int a, int b, Regions& regions)
+void linkTiles(int a, int b, FrameVector<Touch>& touches)
 {
   if (a >= 0 && b >= 0 && a != b)
-    regions.touch(a, b);
+    touches.push_back({a, b});
 }
 
 /// Tiles that lie side by side in some rows of cells, in the order of the cells: each one
 /// touches what lies to its right, then what lies below.
-void linkInside(const FrameVector<int>& cell_region, const TileLevel& cells,
-                TileRows rows, Regions& regions)
+FrameVector<Touch> touchesInside(const FrameVector<int>& cell_region,
+                                 const TileLevel& cells, TileRows rows)
 {
   const CellRuns runs(cell_region, cells, rows);
+  FrameVector<Touch> touches;
+  touches.reserve(2 * runs.size());
   for (int r = rows.begin; r < rows.end; ++r) {
     const bool last = r + 1 == rows.end;
     const CellRun* below = last ? nullptr : runs.begin(r + 1);
     for (const CellRun* run = runs.begin(r); run != runs.end(r); ++run) {
       const int right = run + 1 != runs.end(r) ? run[1].region : -1;
       if (last) {
-        linkTiles(run->region, right, regions);
+        linkTiles(run->region, right, touches);
         continue;
       }
       for (; below->end < run->end; ++below)
-        linkTiles(run->region, below->region, regions);
+        linkTiles(run->region, below->region, touches);
       // It lies below the last cell only.
       const bool alone = std::max(below->begin, run->begin) == run->end - 1;
       if (!alone)
-        linkTiles(run->region, below->region, regions);
-      linkTiles(run->region, right, regions);
+        linkTiles(run->region, below->region, touches);
+      linkTiles(run->region, right, touches);
       if (alone)
-        linkTiles(run->region, below->region, regions);
+        linkTiles(run->region, below->region, touches);
       if (below->end == run->end)
         ++below;
     }
   }
+  return touches;
 }
 
 /// Regions on either side of the border above a row of cells.
@@ -115,13 +120,35 @@ public:
     joint_.reserve(PAIRS * tiles_.size());
   }
 
-  /// Merges until no two neighbours are one plane; what was too different may fit what has
-  /// grown. \param[in] mark walks before this one \return the same after it
-  int run(int mark)
+  /// Offers all pairs of neighbours, to be priced by priceBatch().
+  /// \param[in] mark walks before this one
+  void begin(int mark)
   {
     mark_ = mark;
-    while (mergeOnce())
-      ;
+    findPairs();
+  }
+
+  int batches() const
+  {
+    return static_cast<int>((pairs_.size() + AT_ONCE - 1) / AT_ONCE);
+  }
+
+  /// Prices some of the pairs on offer; any number of them at once.
+  void priceBatch(int batch)
+  {
+    const std::size_t first = static_cast<std::size_t>(batch) * AT_ONCE;
+    price(first, std::min(first + AT_ONCE, pairs_.size()));
+  }
+
+  /// Merges until no two neighbours are one plane; what was too different may fit what has
+  /// grown. All pairs that begin() has offered have their price.
+  /// \return the mark after it
+  int run()
+  {
+    while (mergePriced()) {
+      findPairs();
+      parallelParts(batches(), threads_, [&](int batch) { priceBatch(batch); });
+    }
     return mark_;
   }
 
@@ -129,9 +156,10 @@ private:
   static constexpr std::size_t PAIRS = 4; ///< for each tile at first, about
 
   /// \return whether any were merged
-  bool mergeOnce()
+  bool mergePriced()
   {
-    offerAll();
+    looked_at_ = 0;
+    queueNew();
     bool merged = false;
     std::uint32_t number = 0;
     while (popCurrent(number)) {
@@ -151,7 +179,7 @@ private:
 
   /// Offers all pairs of neighbours, as if one after the other, but for those that neither
   /// has grown since they were found too different.
-  void offerAll()
+  void findPairs()
   {
     pairs_.clear();
     for (const int a : tiles_)
@@ -163,13 +191,6 @@ private:
     for (const int a : tiles_)
       offered_[static_cast<std::size_t>(a)] = regions_.tiles(a);
     joint_.resize(pairs_.size());
-    const auto batches = static_cast<int>((pairs_.size() + AT_ONCE - 1) / AT_ONCE);
-    parallelParts(batches, threads_, [&](int batch) {
-      const std::size_t first = static_cast<std::size_t>(batch) * AT_ONCE;
-      price(first, std::min(first + AT_ONCE, pairs_.size()));
-    });
-    looked_at_ = 0;
-    queueNew();
   }
 
   /// The most alike pair as things stand. Those above it that have grown since they were
@@ -271,23 +292,45 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
     return rowsInside(cells, pyramid.back(),
                       {halves.begin(half), halves.begin(half + 1)});
   };
-  for (int half = 0; half < halves.count; ++half)
-    linkInside(cell_region, cells, rows(half), regions);
-  FrameVector<int> marks(static_cast<std::size_t>(halves.count), 0);
+  FrameVector<FrameVector<Touch>> touches(static_cast<std::size_t>(halves.count));
   parallelParts(halves.count, threads, [&](int half) {
-    Agglomeration agglomeration(regions, tilesIn(cell_region, cells, rows(half), count),
-                                noise, parameters, 1);
-    marks[static_cast<std::size_t>(half)] = agglomeration.run(0);
+    touches[static_cast<std::size_t>(half)] =
+        touchesInside(cell_region, cells, rows(half));
+  });
+  regions.touchAll(touches, threads);
+  std::array<std::optional<Agglomeration>, 2> inside;
+  const auto of = [&](int half) -> Agglomeration& {
+    return *inside[static_cast<std::size_t>(half)];
+  };
+  parallelParts(halves.count, threads, [&](int half) {
+    inside[static_cast<std::size_t>(half)].emplace(
+        regions, tilesIn(cell_region, cells, rows(half), count), noise, parameters, 1U);
+    of(half).begin(0);
+  });
+  // One half has more to merge than the other: what both can do of it comes first.
+  const int upper = of(0).batches();
+  parallelParts(upper + (halves.count > 1 ? of(1).batches() : 0), threads,
+                [&](int batch) {
+                  if (batch < upper)
+                    of(0).priceBatch(batch);
+                  else
+                    of(1).priceBatch(batch - upper);
+                });
+  std::array<int, 2> marks = {};
+  parallelParts(halves.count, threads, [&](int half) {
+    marks[static_cast<std::size_t>(half)] = of(half).run();
+    inside[static_cast<std::size_t>(half)].reset();
   });
   if (halves.count > 1) {
-    for (int half = 1; half < halves.count; ++half)
-      linkAcross(cell_region, cells, rows(half).begin, regions);
-    Agglomeration agglomeration(regions,
-                                tilesIn(cell_region, cells, {0, cells.rows}, count),
-                                noise, parameters, threads);
-    agglomeration.run(*std::max_element(marks.begin(), marks.end()));
+    linkAcross(cell_region, cells, rows(1).begin, regions);
+    FrameVector<int> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    Agglomeration both(regions, std::move(all), noise, parameters, threads);
+    both.begin(std::max(marks[0], marks[1]));
+    parallelParts(both.batches(), threads, [&](int batch) { both.priceBatch(batch); });
+    both.run();
   }
-  return collect(regions, std::move(cell_region), 0.5 * parameters.min_points);
+  return collect(regions, std::move(cell_region), 0.5 * parameters.min_points, threads);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -46,6 +46,7 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
  * them stands in front, so the surface may well go on behind it. */
 TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
                          const TileLevel& cells, const NoiseLaw& noise,
-                         const AdaptiveParameters& parameters);
+                         const AdaptiveParameters& parameters,
+                         unsigned int threads = 1);
 
 } // namespace pcl_mrf_planes::adaptive

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/region_graph.h"
 #include "frame_memory.h"
+#include "threads.h"
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -15,7 +16,8 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
   return std::max(0.0, growth) / std::min(a.n, b.n) / allowed;
 }
 
-TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least)
+TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least,
+                    unsigned int threads)
 {
   TileRegions out;
   FrameVector<int> id(static_cast<std::size_t>(regions.size()) + 1, -1);
@@ -28,8 +30,13 @@ TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least
     }
   for (int i = 0; i < regions.size(); ++i)
     number[i] = number[regions.find(i)];
-  for (int& region : cell_region)
-    region = number[region]; // none stays none
+  const Bands bands(static_cast<int>(cell_region.size()));
+  parallelParts(bands.count, threads, [&](int band) {
+    for (int cell = bands.begin(band); cell < bands.begin(band + 1); ++cell) {
+      int& region = cell_region[static_cast<std::size_t>(cell)];
+      region = number[region]; // none stays none
+    }
+  });
   out.cell_region = std::move(cell_region);
   return out;
 }

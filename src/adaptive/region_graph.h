@@ -3,6 +3,7 @@
 
 #include "adaptive/plane_merging.h"
 #include "frame_memory.h"
+#include "threads.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,6 +12,11 @@
 #include <vector>
 
 namespace pcl_mrf_planes::adaptive {
+
+/// Two regions side by side.
+struct Touch {
+  int a, b;
+};
 
 /// Regions that merge: a union-find with the pooled sums of each set.
 class Regions {
@@ -24,7 +30,6 @@ public:
   , marks_(sums_.size(), 0)
   {
     std::iota(parent_.begin(), parent_.end(), 0);
-    links_.reserve(LINKS * sums_.size());
   }
 
   int find(int i)
@@ -36,11 +41,29 @@ public:
 
   void touch(int a, int b)
   {
-    if (const List& list = at(lists_, a);
-        list.last >= 0 && at(links_, list.last).to == b)
+    if (isLast(a, b))
       return; // along a border of several cells
-    append(a, b);
-    append(b, a);
+    links_.resize(links_.size() + 2);
+    const auto k = static_cast<int>(links_.size());
+    append(a, b, k - 2);
+    append(b, a, k - 1);
+  }
+
+  /// The same for groups of sets that have no set in common.
+  void touchAll(const FrameVector<FrameVector<Touch>>& groups, unsigned int threads)
+  {
+    FrameVector<int> first = {static_cast<int>(links_.size())}; // link of each group
+    for (const FrameVector<Touch>& group : groups)
+      first.push_back(first.back() + 2 * static_cast<int>(group.size()));
+    links_.resize(static_cast<std::size_t>(first.back()));
+    parallelParts(static_cast<int>(groups.size()), threads, [&](int group) {
+      int k = at(first, group);
+      for (const auto& [a, b] : groups[static_cast<std::size_t>(group)])
+        if (!isLast(a, b)) {
+          append(a, b, k++);
+          append(b, a, k++);
+        }
+    });
   }
 
   /// Calls visit(b) for the neighbours of a root, as roots, each once.
@@ -92,22 +115,28 @@ public:
 
 private:
   static constexpr int NO_LINK = -1;
-  static constexpr std::size_t LINKS = 8; ///< of a set at first, about
 
   /// A neighbour in a list of them; lists are joined without copying.
   struct Link {
-    int to;
-    int next;
+    int to = NO_LINK;
+    int next = NO_LINK;
   };
   struct List {
     int first = NO_LINK;
     int last = NO_LINK;
   };
 
-  void append(int a, int b)
+  /// Whether b is the neighbour of a that was met last.
+  bool isLast(int a, int b)
   {
-    const auto k = static_cast<int>(links_.size());
-    links_.push_back({b, NO_LINK});
+    const int last = at(lists_, a).last;
+    return last != NO_LINK && at(links_, last).to == b;
+  }
+
+  /// Adds a neighbour to a list, by link number \a k.
+  void append(int a, int b, int k)
+  {
+    at(links_, k) = {b, NO_LINK};
     List& list = at(lists_, a);
     (list.last == NO_LINK ? list.first : at(links_, list.last).next) = k;
     list.last = k;
@@ -148,6 +177,7 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
                      const AdaptiveParameters& p);
 
 /// The sets that hold at least so many points, numbered in order.
-TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least);
+TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least,
+                    unsigned int threads);
 
 } // namespace pcl_mrf_planes::adaptive

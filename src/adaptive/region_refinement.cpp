@@ -14,9 +14,9 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 /// Labels of 4-connected parts below the least size become 0.
-void dropSmallParts(int least, LabelledPoints& image)
+void dropSmallParts(int least, LabelledPoints& image, unsigned int threads)
 {
-  const RunParts parts = connectRuns(image.runs);
+  const RunParts parts = connectRuns(image.runs, threads);
   for (std::size_t k = 0; k < image.runs.runs.size(); ++k)
     if (parts.size[static_cast<std::size_t>(parts.part_of_run[k])] < least) {
       fillRun(image.runs.runs[k], 0, image.labels);
@@ -220,7 +220,7 @@ FittedRegions refineRegions(const OrganizedPoints& points,
                             const AdaptiveParameters& parameters, LabelledPoints& image,
                             unsigned int threads)
 {
-  dropSmallParts(parameters.min_points, image);
+  dropSmallParts(parameters.min_points, image, threads);
   std::size_t count = 1;
   for (const LabelRun& run : image.runs.runs)
     count = std::max<std::size_t>(count, run.label + 1U);
