@@ -9,6 +9,7 @@
 #include "line_simplification.h"
 #include "plane_uncertainty_kernel.h"
 #include "polygon_simplification.h"
+#include "thread_team.h"
 
 #include <pcl_mrf_planes/label_confidence.h>
 #include <pcl_mrf_planes/plane_projection.h>
@@ -27,6 +28,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace pcl_mrf_planes {
 namespace {
@@ -44,6 +47,69 @@ void forEachInstructionSet(const Work& work)
     work();
   }
   hwy::SetSupportedTargetsForTest(0);
+}
+
+/// Number of the 4-connected part of each point, in the order of their first points, by plain
+/// flooding; -1 for the background.
+std::vector<int> floodedParts(const std::vector<std::uint16_t>& labels, int width)
+{
+  const int size = static_cast<int>(labels.size());
+  std::vector<int> part(labels.size(), -1);
+  int count = 0;
+  for (int seed = 0; seed < size; ++seed) {
+    const auto label = labels[static_cast<std::size_t>(seed)];
+    if (label == 0 || part[static_cast<std::size_t>(seed)] >= 0)
+      continue;
+    std::vector<int> open = {seed};
+    while (!open.empty()) {
+      const int i = open.back();
+      open.pop_back();
+      if (labels[static_cast<std::size_t>(i)] != label ||
+          part[static_cast<std::size_t>(i)] >= 0)
+        continue;
+      part[static_cast<std::size_t>(i)] = count;
+      if (i % width > 0)
+        open.push_back(i - 1);
+      if ((i + 1) % width > 0)
+        open.push_back(i + 1);
+      if (i >= width)
+        open.push_back(i - width);
+      if (i + width < size)
+        open.push_back(i + width);
+    }
+    ++count;
+  }
+  return part;
+}
+
+TEST(LabelRunsTest, ConnectedPartsAreThoseOfAPlainFloodAtAnyNumberOfThreads)
+{
+  const ThreadTeam team(4);
+  scenes::Random random(2);
+  for (int run = 0; run < 300; ++run) {
+    const int width = random.integer(1, 40);
+    const int height = random.integer(1, 40);
+    const int most = random.integer(1, 3);
+    std::vector<std::uint16_t> labels(static_cast<std::size_t>(width * height));
+    for (auto& label : labels)
+      label = static_cast<std::uint16_t>(random.integer(0, most));
+    const std::vector<int> expected = floodedParts(labels, width);
+    for (const unsigned int threads : {1U, 4U}) {
+      SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height) + ", " +
+                   std::to_string(threads) + " threads");
+      const LabelRuns image = findRuns(labels, width, 0, threads);
+      const RunParts parts = connectRuns(image, threads);
+      std::vector<int> found(labels.size(), -1);
+      std::vector<int> size(parts.size.size(), 0);
+      for (std::size_t k = 0; k < image.runs.size(); ++k)
+        for (std::size_t i = image.runs[k].begin; i < image.runs[k].end; ++i) {
+          found[i] = parts.part_of_run[k];
+          ++size[static_cast<std::size_t>(found[i])];
+        }
+      ASSERT_EQ(found, expected);
+      EXPECT_TRUE(std::equal(size.begin(), size.end(), parts.size.begin()));
+    }
+  }
 }
 
 TEST(RegionRunsTest, AreThoseOfTheLabelImage)
