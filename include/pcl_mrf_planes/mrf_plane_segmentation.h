@@ -395,6 +395,8 @@ private:
 
   bool checkInput() const;
   SensorPose statedPose() const;
+  /// Looks at some points, about \a most, and the pixels that they are at.
+  void sightPoints(std::size_t most);
   void findPose();
   void readPoints();
   void copyPoints(int width, int height);

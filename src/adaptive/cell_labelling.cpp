@@ -61,8 +61,8 @@ private:
   static constexpr int GROUP = 8; ///< cells that are looked at at once
   using Neighbours = std::array<int, SIDES>;
 
-  /// Whether a group of cells from a column on and all their neighbours carry one label: none of them
-  /// would get another. \param[in] end of the cells that may be visited
+  /// Whether a group of cells from a column on and all their neighbours carry one label:
+  /// none of them would get another. \param[in] end of the cells that may be visited
   bool isCalm(int column, int end, int row) const
   {
     if (column < 1 || column + GROUP > end || column + GROUP >= cells_.columns ||

@@ -200,12 +200,9 @@ MRFPlaneSegmentation<PointT>::statedPose() const
 }
 
 template <typename PointT>
-void MRFPlaneSegmentation<PointT>::findPose()
+void MRFPlaneSegmentation<PointT>::sightPoints(std::size_t most)
 {
-  pose_ = statedPose();
-  // A few thousand points, spread over the image, say where the sensor was.
-  constexpr std::size_t SAMPLES = 2000;
-  const std::size_t step = std::max<std::size_t>(1, indices_->size() / SAMPLES);
+  const std::size_t step = std::max<std::size_t>(1, indices_->size() / most);
   sightings_.clear();
   for (std::size_t k = 0; k < indices_->size(); k += step) {
     const auto i = static_cast<std::size_t>((*indices_)[k]);
@@ -216,7 +213,25 @@ void MRFPlaneSegmentation<PointT>::findPose()
     if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
       sightings_.push_back({Eigen::Vector3d(p.x, p.y, p.z), pixel});
   }
-  if (pcl_mrf_planes::plausibleOrigin(sightings_, pose_.origin))
+}
+
+template <typename PointT>
+void MRFPlaneSegmentation<PointT>::findPose()
+{
+  pose_ = statedPose();
+  // Points spread over the image say where the sensor was: some hundreds where it was where
+  // the cloud says, as nearly always, else a few thousand.
+  constexpr std::size_t FEW = 500;
+  constexpr std::size_t ENOUGH = 100; // of these, that were measured
+  constexpr std::size_t MANY = 2000;
+  const auto isPlausible = [&] {
+    return pcl_mrf_planes::plausibleOrigin(sightings_, pose_.origin);
+  };
+  sightPoints(FEW);
+  if (sightings_.size() >= ENOUGH && isPlausible())
+    return;
+  sightPoints(MANY);
+  if (isPlausible())
     return;
   const bool found = pcl_mrf_planes::estimatePinholePose(sightings_, pose_);
   PCL_WARN(
