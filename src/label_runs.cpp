@@ -29,37 +29,6 @@ std::size_t findOther(std::uint16_t label, const std::uint16_t* labels, std::siz
 
 namespace {
 
-/// Runs that touch get one root, the first of them in the image.
-class Roots {
-public:
-  explicit Roots(std::size_t runs)
-  {
-    for (std::size_t k = 0; k < runs; ++k)
-      root_.push_back(k);
-  }
-
-  std::size_t find(std::size_t k)
-  {
-    while (root_[k] != k)
-      k = root_[k] = root_[root_[k]];
-    return k;
-  }
-
-  void join(std::size_t a, std::size_t b)
-  {
-    a = find(a);
-    b = find(b);
-    root_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  FrameVector<std::size_t> root_;
-};
-
-} // namespace
-
-namespace {
-
 /// Finds the runs of one row after another.
 class RunFinder {
 public:
@@ -200,39 +169,64 @@ void fillRun(const LabelRun& run, std::uint16_t label,
             labels.begin() + static_cast<std::ptrdiff_t>(run.end), label);
 }
 
-RunParts connectRuns(const LabelRuns& image, unsigned int threads)
+std::size_t RunRoots::findShortening(std::size_t run)
 {
-  Roots roots(image.runs.size());
-  const auto joinNext = [&](int row) {
-    forEachOverlap(image, static_cast<std::size_t>(row),
-                   [&](std::size_t a, std::size_t b) {
-                     if (image.runs[a].label == image.runs[b].label)
-                       roots.join(a, b);
-                   });
-  };
+  while (root_[run] != run)
+    run = root_[run] = root_[root_[run]];
+  return run;
+}
+
+void RunRoots::joinWithNextRow(const LabelRuns& image, int row)
+{
+  forEachOverlap(image, static_cast<std::size_t>(row),
+                 [&](std::size_t above, std::size_t below) {
+                   if (image.runs[above].label != image.runs[below].label)
+                     return;
+                   const auto [first, second] =
+                       std::minmax({findShortening(above), findShortening(below)});
+                   if (first == second)
+                     return;
+                   root_[second] = first;
+                   points_[first] += points_[second];
+                 });
+}
+
+RunRoots::RunRoots(const LabelRuns& image, unsigned int threads)
+: root_(image.runs.size())
+, points_(image.runs.size())
+{
   // Bands by themselves, then what lies on either side of their borders: the root of a part
   // is its first run in any order.
-  const Bands bands(std::max(0, static_cast<int>(image.rows.size()) - 1), 4);
+  const Bands bands(std::max(0, static_cast<int>(image.rows.size()) - 1), 8);
   parallelParts(bands.count, threads, [&](int band) {
+    const std::size_t end = image.rows[static_cast<std::size_t>(bands.begin(band + 1))];
+    for (std::size_t k = image.rows[static_cast<std::size_t>(bands.begin(band))];
+         k < end; ++k) {
+      root_[k] = k;
+      points_[k] = static_cast<int>(image.runs[k].end - image.runs[k].begin);
+    }
     for (int row = bands.begin(band); row + 1 < bands.begin(band + 1); ++row)
-      joinNext(row);
+      joinWithNextRow(image, row);
   });
   for (int band = 1; band < bands.count; ++band)
-    joinNext(bands.begin(band) - 1);
+    joinWithNextRow(image, bands.begin(band) - 1);
+}
 
+RunParts connectRuns(const LabelRuns& image, unsigned int threads)
+{
+  const RunRoots roots(image, threads);
   RunParts parts;
   for (std::size_t k = 0; k < image.runs.size(); ++k) {
     const LabelRun& run = image.runs[k];
-    const std::size_t root = roots.find(k); // never after k
+    const std::size_t root = roots.of(k);
     const int part =
         root == k ? static_cast<int>(parts.size.size()) : parts.part_of_run[root];
     if (root == k) {
-      parts.size.push_back(0);
+      parts.size.push_back(roots.points(k));
       parts.first.push_back(run.begin);
       parts.label.push_back(run.label);
     }
     parts.part_of_run.push_back(part);
-    parts.size[static_cast<std::size_t>(part)] += static_cast<int>(run.end - run.begin);
   }
   return parts;
 }

@@ -52,6 +52,32 @@ LabelRuns regionRuns(const std::vector<PlaneRegion>& regions, int width, int hei
 void fillRun(const LabelRun& run, std::uint16_t label,
              std::vector<std::uint16_t>& labels);
 
+/// Runs of the same label that lie above one another, joined: each 4-connected part has one
+/// root, its first run in the image.
+class RunRoots {
+public:
+  /// O(runs)
+  explicit RunRoots(const LabelRuns& image, unsigned int threads = 1);
+
+  /// The root of a run, never one after it. Any number of threads may ask.
+  std::size_t of(std::size_t run) const
+  {
+    while (root_[run] != run)
+      run = root_[run];
+    return run;
+  }
+
+  /// Points of the part that a run belongs to.
+  int points(std::size_t run) const { return points_[of(run)]; }
+
+private:
+  void joinWithNextRow(const LabelRuns& image, int row);
+  std::size_t findShortening(std::size_t run);
+
+  FrameVector<std::size_t> root_; ///< of each run, or one on the way to it
+  FrameVector<int> points_;       ///< of each root's part
+};
+
 /// 4-connected parts of a label image, in the order of their first points.
 struct RunParts {
   FrameVector<int> part_of_run;
@@ -60,7 +86,7 @@ struct RunParts {
   FrameVector<std::uint16_t> label;
 };
 
-/// Joins runs of the same label that lie above one another. O(runs)
+/// The parts of all runs. O(runs)
 RunParts connectRuns(const LabelRuns& image, unsigned int threads = 1);
 
 /// Calls overlap(a, b) for each run a of a row and each b of the next row that have a

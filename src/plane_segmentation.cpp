@@ -106,7 +106,7 @@ void segmentAsInPaper(const OrganizedPoints& points, const Parameters& parameter
   report.tiles_tried = result.tiles.tiles.size();
   report.tiles_kept = result.tiles.countKept();
   report.planes_after_merging = planes.size();
-  report.count(points, result.regions);
+  report.count(points, result.regions, parameters.number_of_threads);
 }
 
 } // namespace
@@ -120,10 +120,11 @@ double SegmentationReport::totalMs() const
 }
 
 void SegmentationReport::count(const OrganizedPoints& organized_points,
-                               const std::vector<PlaneRegion>& regions)
+                               const std::vector<PlaneRegion>& regions,
+                               unsigned int threads)
 {
   points = organized_points.size();
-  valid_points = organized_points.countValid();
+  valid_points = organized_points.countValid(threads);
   planes = regions.size();
   std::size_t labelled = 0;
   for (const PlaneRegion& region : regions)

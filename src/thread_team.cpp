@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "thread_team.h"
 
+#include "threads.h"
+
 #include <pcl_mrf_planes/thread_scope.h>
 
 #include <oneapi/tbb/info.h>
@@ -240,9 +242,16 @@ ThreadTeam* ThreadTeam::ofThisThread()
 }
 
 ThreadScope::ThreadScope(unsigned int threads)
-: team_(threads == 1 ? nullptr : std::make_unique<ThreadTeam>(threads))
+: threads_(threads)
+, team_(threads == 1 ? nullptr : std::make_unique<ThreadTeam>(threads))
 {}
 
 ThreadScope::~ThreadScope() = default;
+
+void ThreadScope::run(int parts, const void* work,
+                      void (*call)(const void* work, int part)) const
+{
+  parallelParts(parts, threads_, [&](int part) { call(work, part); });
+}
 
 } // namespace pcl_mrf_planes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "threads.h"
 
+#include <pcl_mrf_planes/thread_scope.h>
+
 #include <gtest/gtest.h>
 
 #include <malloc.h>
@@ -133,6 +135,29 @@ TEST(ThreadTeam, TeamsOfSeveralThreadsDoNotMeet)
     });
   for (std::thread& maker : makers)
     maker.join();
+}
+
+TEST(ThreadScope, SharesEveryPartOnceAtAnyNumberOfThreads)
+{
+  for (const unsigned int threads : {0U, 1U, 2U, THREADS}) {
+    const ThreadScope scope(threads);
+    std::vector<std::atomic<int>> times(50);
+    scope.share(50, [&](int part) { ++times[static_cast<std::size_t>(part)]; });
+    for (const std::atomic<int>& of_part : times)
+      EXPECT_EQ(of_part, 1) << threads << " threads";
+    scope.share(0, [](int part) { ADD_FAILURE() << part << " of none"; });
+  }
+}
+
+TEST(ThreadScope, WhatAPartThrowsArrives)
+{
+  const ThreadScope scope(THREADS);
+  EXPECT_THROW(scope.share(8,
+                           [](int part) {
+                             if (part == 5)
+                               throw std::runtime_error("five");
+                           }),
+               std::runtime_error);
 }
 
 /// Bytes that are allocated now; 0 where another allocator is in place (sanitizers).

@@ -10,6 +10,7 @@
 #include <pcl_mrf_planes/region_polygons.h>
 #include <pcl_mrf_planes/segmentation_stages.h>
 #include <pcl_mrf_planes/sensor_pose.h>
+#include <pcl_mrf_planes/thread_scope.h>
 
 #include <pcl/ModelCoefficients.h>
 #include <pcl/PointIndices.h>
@@ -385,8 +386,9 @@ protected:
 
 private:
   using SensorPose = pcl_mrf_planes::SensorPose;
+  using Threads = pcl_mrf_planes::ThreadScope;
 
-  /// Runs \a fill on a good result; reports what went wrong otherwise.
+  /// Runs fill(threads) on a good result; reports what went wrong otherwise.
   /// \return whether there is a result
   template <typename Fill>
   bool run(const Fill& fill);
@@ -401,9 +403,11 @@ private:
   void readPoints();
   void copyPoints(int width, int height);
   void limitToIndices();
-  void fillModels(std::vector<ModelCoefficients>& model_coefficients,
+  void fillModels(const Threads& threads,
+                  std::vector<ModelCoefficients>& model_coefficients,
                   std::vector<PointIndices>& inlier_indices);
-  void fillLabels(PointCloudL& labels, std::vector<PointIndices>& label_indices);
+  void fillLabels(const Threads& threads, PointCloudL& labels,
+                  std::vector<PointIndices>& label_indices);
   /// What there is too much of goes to \a spare, with its memory, and comes back from there.
   template <typename Output>
   static void resizeOutput(std::vector<Output>& output, std::size_t size,

@@ -125,11 +125,13 @@ struct PCL_MRF_PLANES_EXPORT OrganizedPoints {
   }
 
   /** \brief Decide AUTO from the points of every fourth row: a camera sees nothing behind
-   * itself. */
-  void resolveDepthMeasure(DepthMeasure wanted);
+   * itself.
+   * \param[in] wanted how to measure; any but AUTO is taken as it is
+   * \param[in] threads 0: as many as there are cores */
+  void resolveDepthMeasure(DepthMeasure wanted, unsigned int threads = 1);
 
-  /** \brief Number of valid points. */
-  std::size_t countValid() const;
+  /** \brief Number of valid points. \param[in] threads 0: as many as there are cores */
+  std::size_t countValid(unsigned int threads = 1) const;
 };
 
 } // namespace pcl_mrf_planes

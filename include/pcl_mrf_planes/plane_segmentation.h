@@ -38,9 +38,11 @@ struct PCL_MRF_PLANES_EXPORT SegmentationReport {
   /// Milliseconds of all stages together.
   double totalMs() const;
 
-  /** \brief Fill in what follows from the points and the regions. */
+  /** \brief Fill in what follows from the points and the regions.
+   * \param[in] organized_points, regions what was segmented, and the result
+   * \param[in] threads 0: as many as there are cores */
   void count(const OrganizedPoints& organized_points,
-             const std::vector<PlaneRegion>& regions);
+             const std::vector<PlaneRegion>& regions, unsigned int threads = 1);
 };
 
 namespace adaptive {

@@ -23,7 +23,22 @@ public:
   ThreadScope& operator=(const ThreadScope&) = delete;
   ~ThreadScope();
 
+  /** \brief Calls work(part) for every part below \a parts, by all threads of the scope
+   * where the calling one made it. Parts must not depend on each other. What one of them
+   * throws is thrown again here, after all of them.
+   * \param[in] parts how many, >= 0
+   * \param[in] work what is to be done, any number of it at once */
+  template <typename Work>
+  void share(int parts, const Work& work) const
+  {
+    run(parts, &work,
+        [](const void* what, int part) { (*static_cast<const Work*>(what))(part); });
+  }
+
 private:
+  void run(int parts, const void* work, void (*call)(const void* work, int part)) const;
+
+  unsigned int threads_;
   std::unique_ptr<ThreadTeam> team_;
 };
 

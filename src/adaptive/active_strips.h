@@ -11,7 +11,7 @@
 
 namespace pcl_mrf_planes::adaptive {
 
-/// Upright strips of a field with about as many active blocks each.
+/// Upright strips of a field whose active blocks have about as many labels in each.
 class ActiveStrips {
 public:
   ActiveStrips(const CandidateField& field, int strips)
@@ -44,14 +44,14 @@ private:
   FrameVector<std::size_t> borders(const CandidateField& field) const
   {
     const auto columns = static_cast<std::size_t>(field.blocks.columns);
-    FrameVector<std::size_t> left_of(columns + 1, 0); // active blocks, by column
+    FrameVector<std::size_t> left_of(columns + 1, 0); // labels, by column
     for (const std::size_t block : field.active)
-      ++left_of[block % columns + 1];
+      left_of[block % columns + 1] += field.blocks.count[block];
     for (std::size_t c = 0; c < columns; ++c)
       left_of[c + 1] += left_of[c];
     FrameVector<std::size_t> border;
     for (int strip = 0; strip < strips_; ++strip) {
-      const std::size_t wanted = field.active.size() * static_cast<std::size_t>(strip) /
+      const std::size_t wanted = left_of.back() * static_cast<std::size_t>(strip) /
                                  static_cast<std::size_t>(strips_);
       border.push_back(static_cast<std::size_t>(
           std::lower_bound(left_of.begin(), left_of.end(), wanted) - left_of.begin()));

@@ -228,7 +228,7 @@ void adaptive::segmentObserved(const OrganizedPoints& points,
   paintRegions(runs, result.regions, planes.size(), result.labels,
                parameters.number_of_threads);
   watch.timer.finish("regions");
-  report.count(points, result.regions);
+  report.count(points, result.regions, parameters.number_of_threads);
 }
 
 } // namespace pcl_mrf_planes

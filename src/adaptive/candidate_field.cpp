@@ -210,7 +210,7 @@ void buildField(const OrganizedPoints& points, const TileRegions& regions,
   field.number.assign(field.blocks.count.size(), CandidateField::SETTLED);
   const FieldSources sources(points, regions, pyramid, noise, parameters, threads,
                              memory.ranges);
-  const Bands bands(field.blocks.rows, threadCount(threads) > 1 ? 16 : 1);
+  const Bands bands(field.blocks.rows, threadCount(threads) > 1 ? 32 : 1);
   std::vector<FieldPart>& parts = memory.parts;
   parts.resize(static_cast<std::size_t>(bands.count));
   parallelParts(bands.count, threads, [&](int band) {

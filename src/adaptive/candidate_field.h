@@ -107,9 +107,22 @@ struct Messages {
   BlockRow::Numbers from[4] = {}; ///< by the side that the sender is at
 };
 
+/// An active block among its neighbours.
+struct ActiveBlock {
+  static constexpr std::size_t SIDES = 4;
+  using SlotMap = std::array<std::uint8_t, CandidateBlocks::SLOTS>;
+
+  std::size_t count;            ///< labels
+  std::size_t first;            ///< costs of its first row
+  std::size_t neighbour[SIDES]; ///< active block on each side, or SETTLED
+  SlotMap
+      slot[SIDES]; ///< where an active neighbour's labels are among those of this block
+};
+
 /// Memory of belief propagation.
 struct BeliefMemory {
   std::vector<Messages> received;
+  std::vector<ActiveBlock> places; ///< of the active blocks
 };
 
 /// Whole units of the field's costs in one sigma.

@@ -20,6 +20,7 @@ constexpr std::uint8_t ABSENT = 255; ///< the neighbour has no such label
 constexpr std::size_t SETTLED = CandidateField::SETTLED;
 
 enum Side : std::size_t { LEFT, RIGHT, ABOVE, BELOW, SIDES };
+static_assert(SIDES == ActiveBlock::SIDES);
 
 static_assert(sizeof(Messages::from) == SIDES * sizeof(BlockRow::Numbers),
               "a message from each side");
@@ -31,7 +32,7 @@ constexpr Side opposite(Side side)
 
 using Numbers = BlockRow::Numbers;
 using Beliefs = std::array<Numbers, SLOTS>; // not initialized: most are not in use
-using SlotMap = std::array<std::uint8_t, SLOTS>;
+using SlotMap = ActiveBlock::SlotMap;
 
 /// The eight numbers as two words, the first number lowest: what moves from word to word is
 /// one shift away, without an instruction that only newer machines have.
@@ -60,14 +61,6 @@ Numbers shiftLeft(Numbers v, std::int16_t last)
   return reinterpret_cast<Numbers>((words >> NUMBER) | in);
 }
 
-/// An active block among its neighbours.
-struct Place {
-  std::size_t count;            ///< labels
-  std::size_t first;            ///< costs of its first row
-  std::size_t neighbour[SIDES]; ///< active block on each side, or SETTLED
-  SlotMap slot[SIDES]; ///< where that neighbour's labels are among those of this block
-};
-
 /// Passes over the image, with the messages that every point has received.
 class Passes {
 public:
@@ -76,10 +69,11 @@ public:
   , threads_(threads)
   , blocks_(field.blocks)
   , received_(memory.received)
-  , places_(field.active.size())
+  , places_(memory.places)
   , strips_(field, threadCount(threads))
   {
     received_.resize(field.data.size());
+    places_.resize(field.active.size());
     parallelRows(blocks_.rows, threads, [&](int row) {
       for (std::size_t a = strips_.first(row, 0); a < strips_.first(row + 1, 0); ++a) {
         std::fill_n(received_.begin() + static_cast<std::ptrdiff_t>(field.first[a]),
@@ -120,7 +114,7 @@ private:
     const std::size_t block = f_.active[a];
     const int column =
         static_cast<int>(block % static_cast<std::size_t>(blocks_.columns));
-    Place& place = places_[a];
+    ActiveBlock& place = places_[a];
     place.count = blocks_.count[block];
     place.first = f_.first[a];
     const int dx[SIDES] = {-1, 1, 0, 0};
@@ -152,7 +146,7 @@ private:
   }
 
   /// The messages of a settled neighbour: any label but its own costs a change.
-  void hear(const Place& place, const BlockWeights& weight, std::size_t block,
+  void hear(const ActiveBlock& place, const BlockWeights& weight, std::size_t block,
             Side side, std::uint16_t label)
   {
     for (std::size_t s = 0; s < place.count; ++s) {
@@ -202,7 +196,7 @@ private:
   template <class Count>
   void send(std::size_t a, std::size_t row, Side next_row, Count count)
   {
-    const Place& place = places_[a];
+    const ActiveBlock& place = places_[a];
     const std::size_t start = place.first + row * count;
     const BlockWeights& weight = f_.weight[a];
     const Numbers right = weight.right[row].v;
@@ -228,12 +222,12 @@ private:
   }
 
   /// The message of the outermost point of a row to the block beside it.
-  void sendAcross(const Place& place, std::size_t row, Side to, std::int16_t weight,
-                  const Beliefs& out)
+  void sendAcross(const ActiveBlock& place, std::size_t row, Side to,
+                  std::int16_t weight, const Beliefs& out)
   {
     if (place.neighbour[to] == SETTLED)
       return;
-    const Place& target = places_[place.neighbour[to]];
+    const ActiveBlock& target = places_[place.neighbour[to]];
     const std::size_t from = to == RIGHT ? LAST : 0;
     const std::size_t start = target.first + row * target.count;
     const SlotMap& map = place.slot[to];
@@ -244,7 +238,7 @@ private:
 
   /// Messages to the row above or below, in this block or the next.
   template <class Count>
-  void sendToRow(const Place& place, const BlockWeights& weight, std::size_t row,
+  void sendToRow(const ActiveBlock& place, const BlockWeights& weight, std::size_t row,
                  Side to, const Beliefs& total, Count count)
   {
     Beliefs out;
@@ -261,7 +255,7 @@ private:
       return;
     const Numbers price = to == BELOW ? weight.down[LAST].v : weight.above.v;
     messages(total, count, start, to, price, out);
-    const Place& target = places_[place.neighbour[to]];
+    const ActiveBlock& target = places_[place.neighbour[to]];
     const std::size_t next = target.first + (LAST - row) * target.count;
     const SlotMap& map = place.slot[to];
     for (std::size_t t = 0; t < target.count; ++t)
@@ -272,7 +266,7 @@ private:
   unsigned int threads_;
   const CandidateBlocks& blocks_;
   std::vector<Messages>& received_;
-  FrameVector<Place> places_; ///< of the active blocks
+  std::vector<ActiveBlock>& places_;
   ActiveStrips strips_;
 };
 

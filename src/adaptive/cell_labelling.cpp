@@ -214,15 +214,16 @@ TileRegions labelCells(const TileRegions& regions,
 
   const FrameVector<TileSums> sums =
       sumLabels(pyramid, field.labels(), regions.planes.size(), threads);
+  FrameVector<FittedPlane> planes(sums.size());
+  fitPlanes(sums.data(), sums.size(), planes.data());
   TileRegions out;
+  out.reserve(sums.size());
   FrameVector<int> id(sums.size(), NONE);
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    const FittedPlane plane = fitSums(sums[k]);
-    if (!isPlane(plane, 0.5 * parameters.min_points, noise, parameters))
+    if (!isPlane(planes[k], 0.5 * parameters.min_points, noise, parameters))
       continue;
     id[k] = static_cast<int>(out.planes.size());
-    out.planes.push_back(plane);
-    out.sums.push_back(sums[k]);
+    out.add(planes[k], sums[k]);
   }
   out.cell_region.resize(field.labels().size());
   parallelRows(pyramid[0].rows, threads, [&](int row) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
@@ -34,33 +35,70 @@ struct SpanRange {
   const Span* end() const { return last; }
 };
 
+/// The spans of some rows, in a counting sort by region.
+class SpanSort {
+public:
+  SpanSort(const TileRegions& regions, const TileLevel& cells, TileRows rows)
+  : spans(regions.planes.size(), 0)
+  , covered(regions.planes.size(), 0)
+  , rows_(rows)
+  , runs_(regions.cell_region, cells, rows)
+  {
+    forEachRun([&](std::size_t k, const CellRun& run, int) {
+      ++spans[k];
+      covered[k] += run.end - run.begin;
+    });
+  }
+
+  /// Writes the spans of each region from spans[region] on, which moves on with them.
+  void fill(FrameVector<Span>& out)
+  {
+    forEachRun([&](std::size_t k, const CellRun& run, int r) {
+      out[spans[k]++] = {run.begin, run.end, r};
+    });
+  }
+
+  FrameVector<std::size_t> spans; ///< of each region
+  FrameVector<int> covered;       ///< cells of each region
+
+private:
+  template <typename Visit>
+  void forEachRun(const Visit& visit) const
+  {
+    for (int r = rows_.begin; r < rows_.end; ++r)
+      for (const CellRun* run = runs_.begin(r); run != runs_.end(r); ++run)
+        if (run->region >= 0)
+          visit(static_cast<std::size_t>(run->region), *run, r);
+  }
+
+  TileRows rows_;
+  CellRuns runs_;
+};
+
 /// The cells of each region, row by row.
 class RegionCells {
 public:
-  RegionCells(const TileRegions& regions, const TileLevel& cells)
+  RegionCells(const TileRegions& regions, const TileLevel& cells, unsigned int threads)
   : starts_(regions.planes.size() + 1, 0)
   , cells_(regions.planes.size(), 0)
   {
-    const CellRuns runs(regions.cell_region, cells, {0, cells.rows});
-    const auto forEachRun = [&](const auto& visit) {
-      for (int r = 0; r < cells.rows; ++r)
-        for (const CellRun* run = runs.begin(r); run != runs.end(r); ++run)
-          if (run->region >= 0)
-            visit(static_cast<std::size_t>(run->region), *run, r);
-    };
-    // Counting sort; where a region is to start is where it ends once it is filled.
-    FrameVector<std::size_t> filled(starts_);
-    forEachRun([&](std::size_t k, const CellRun& run, int) {
-      ++filled[k];
-      cells_[k] += run.end - run.begin;
+    const Bands bands(cells.rows);
+    FrameVector<std::optional<SpanSort>> parts(static_cast<std::size_t>(bands.count));
+    parallelParts(bands.count, threads, [&](int band) {
+      parts[static_cast<std::size_t>(band)].emplace(
+          regions, cells, TileRows{bands.begin(band), bands.begin(band + 1)});
     });
-    for (std::size_t k = 0; k + 1 < starts_.size(); ++k) {
-      starts_[k + 1] = starts_[k] + filled[k];
-      filled[k] = starts_[k];
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      std::size_t next = starts_[k];
+      for (auto& part : parts) {
+        next += std::exchange(part->spans[k], next);
+        cells_[k] += part->covered[k];
+      }
+      starts_[k + 1] = next;
     }
     spans_.resize(starts_.back());
-    forEachRun([&](std::size_t k, const CellRun& run, int r) {
-      spans_[filled[k]++] = {run.begin, run.end, r};
+    parallelParts(bands.count, threads, [&](int band) {
+      parts[static_cast<std::size_t>(band)]->fill(spans_);
     });
   }
 
@@ -79,17 +117,23 @@ private:
 /// What lies between two regions of the image.
 class Gap {
 public:
+  /// A straight way from a cell of one region to the nearest of the other.
+  struct Way {
+    Cell from, to;
+  };
+  using Ways = FrameVector<Way>;
+
   Gap(const TileRegions& regions, const OrganizedPoints& points, const TileLevel& cells,
-      const AdaptiveParameters& parameters)
+      const AdaptiveParameters& parameters, unsigned int threads)
   : points_(points)
   , side_(cells.side)
   , parameters_(parameters)
-  , members_(regions, cells)
+  , members_(regions, cells, threads)
+  , boxes_(regions.planes.size())
   {
-    const auto count = static_cast<int>(regions.planes.size());
-    boxes_.reserve(regions.planes.size());
-    for (int k = 0; k < count; ++k)
-      boxes_.push_back(boxOf(members_.of(k)));
+    parallelRows(static_cast<int>(boxes_.size()), threads, [&](int k) {
+      boxes_[static_cast<std::size_t>(k)] = boxOf(members_.of(k));
+    });
   }
 
   /// False if the gap is too wide even between the boxes around the parts.
@@ -103,14 +147,13 @@ public:
     return dx * dx + dy * dy <= widest(a, b);
   }
 
-  /// True if the gap is not wide and nothing in it lies behind the plane: what separates
-  /// the parts stands in front, so the surface may well go on behind it.
-  bool mayHidePlane(int a, int b, const FittedPlane& plane, double tolerance) const
+  /// Ways over the gap; none if it is too wide.
+  Ways waysOver(int a, int b) const
   {
     constexpr int WALKS = 12;
     const SpanRange from = members_.of(a);
     const SpanRange to = members_.of(b);
-    FrameVector<Way> ways;
+    Ways ways;
     int gap = std::numeric_limits<int>::max();
     const int stride = std::max(1, from.cells / WALKS);
     int next = stride / 2; // cell to start from
@@ -124,7 +167,14 @@ public:
       next -= span.end - span.begin;
     }
     if (gap > widest(a, b))
-      return false;
+      ways.clear();
+    return ways;
+  }
+
+  /// True if nothing in the gap lies behind the plane: what separates the parts stands in
+  /// front, so the surface may well go on behind it.
+  bool mayHidePlane(const Ways& ways, const FittedPlane& plane, double tolerance) const
+  {
     Walked walked;
     for (const Way& way : ways)
       walk(plane, tolerance, way, walked);
@@ -132,10 +182,6 @@ public:
   }
 
 private:
-  struct Way {
-    Cell from, to;
-  };
-
   struct Walked {
     int points = 0;
     int off_plane = 0;
@@ -251,58 +297,124 @@ private:
 
 } // namespace
 
+namespace {
+
+/// Two parts, and their plane as if there were no others.
+struct CoplanarPair {
+  Candidate parts;
+  FittedPlane joint;
+  Gap::Ways ways; ///< between them
+  bool may_hide;  ///< whether the gap may hide the plane
+};
+
+/// Joins parts of planes, the most alike first.
+class CoplanarJoining {
+public:
+  CoplanarJoining(TileRegions& parts, const OrganizedPoints& points,
+                  const TileLevel& cells, const NoiseLaw& noise,
+                  const AdaptiveParameters& parameters, unsigned int threads)
+  : noise_(noise)
+  , parameters_(parameters)
+  , limit_(parameters.join_tolerance * parameters.join_tolerance)
+  , gap_(parts, points, cells, parameters, threads)
+  // Sums and planes only; which region a cell is of is still wanted.
+  , regions_(std::move(static_cast<FittedRegions&>(parts)))
+  , bands_(regions_.size())
+  , found_(static_cast<std::size_t>(bands_.count))
+  {
+    parallelParts(bands_.count, threads, [&](int band) {
+      for (int a = bands_.begin(band); a < bands_.begin(band + 1); ++a)
+        findPairs(a, found_[static_cast<std::size_t>(band)]);
+    });
+  }
+
+  Regions& run()
+  {
+    for (CoplanarPair* pair : sorted()) {
+      const int a = regions_.find(pair->parts.a);
+      const int b = regions_.find(pair->parts.b);
+      if (a == b)
+        continue;
+      const bool grew = regions_.tiles(a) + regions_.tiles(b) > pair->parts.tiles;
+      if (grew && !(fits(a, b, pair->joint) >= 0))
+        continue;
+      if (grew)
+        pair->may_hide = mayHide(pair->ways, pair->joint);
+      if (pair->may_hide)
+        regions_.merge(a, b, pair->joint);
+    }
+    return regions_;
+  }
+
+private:
+  /// \return what it costs to join two sets; negative: they are not one plane
+  double fits(int a, int b, FittedPlane& joint) const
+  {
+    joint = fitSums(regions_.sums(a) + regions_.sums(b));
+    const double cost =
+        dissimilarity(regions_.plane(a), regions_.plane(b), joint, noise_, parameters_);
+    return cost <= limit_ ? cost : -1;
+  }
+
+  bool mayHide(const Gap::Ways& ways, const FittedPlane& joint) const
+  {
+    constexpr double BEHIND = 3.0; // sigmas
+    return gap_.mayHidePlane(
+        ways, joint, BEHIND * std::sqrt(allowedVariance(joint, noise_, parameters_)));
+  }
+
+  /// Pairs of a part and one after it.
+  void findPairs(int a, FrameVector<CoplanarPair>& found) const
+  {
+    constexpr double LEAST_COSINE = 0.9; // of the normals: spares most of the fits
+    FittedPlane joint;
+    for (int b = a + 1; b < regions_.size(); ++b) {
+      if (regions_.plane(a).normal.dot(regions_.plane(b).normal) < LEAST_COSINE ||
+          !gap_.mayBeNarrow(a, b))
+        continue;
+      const double cost = fits(a, b, joint);
+      if (!(cost >= 0))
+        continue;
+      Gap::Ways ways = gap_.waysOver(a, b);
+      if (ways.empty())
+        continue;
+      const bool may_hide = mayHide(ways, joint);
+      const int tiles = regions_.tiles(a) + regions_.tiles(b);
+      found.push_back({{cost, a, b, tiles}, joint, std::move(ways), may_hide});
+    }
+  }
+
+  FrameVector<CoplanarPair*> sorted()
+  {
+    FrameVector<CoplanarPair*> pairs;
+    for (FrameVector<CoplanarPair>& some : found_)
+      for (CoplanarPair& pair : some)
+        pairs.push_back(&pair);
+    std::sort(pairs.begin(), pairs.end(),
+              [](const CoplanarPair* p, const CoplanarPair* q) {
+                return q->parts < p->parts;
+              });
+    return pairs;
+  }
+
+  const NoiseLaw& noise_;
+  const AdaptiveParameters& parameters_;
+  double limit_;
+  Gap gap_;
+  Regions regions_;
+  Bands bands_;
+  FrameVector<FrameVector<CoplanarPair>> found_; ///< in bands of the first part
+};
+
+} // namespace
+
 TileRegions joinCoplanar(TileRegions parts, const OrganizedPoints& points,
                          const TileLevel& cells, const NoiseLaw& noise,
                          const AdaptiveParameters& parameters, unsigned int threads)
 {
-  constexpr double LEAST_COSINE = 0.9; // of the normals: spares most of the fits
-  constexpr double BEHIND = 3.0;       // sigmas
-  const double limit = parameters.join_tolerance * parameters.join_tolerance;
-  const Gap gap(parts, points, cells, parameters);
-  // Sums and planes only; which region a cell is of is still wanted below.
-  Regions regions(std::move(static_cast<FittedRegions&>(parts)));
-  const auto jointOf = [&](int a, int b) {
-    return fitSums(regions.sums(a) + regions.sums(b));
-  };
-  const auto cost = [&](int a, int b, const FittedPlane& joint) {
-    return dissimilarity(regions.plane(a), regions.plane(b), joint, noise, parameters);
-  };
-
-  const Bands bands(regions.size());
-  FrameVector<FrameVector<Candidate>> found(static_cast<std::size_t>(bands.count));
-  parallelParts(bands.count, threads, [&](int band) {
-    for (int a = bands.begin(band); a < bands.begin(band + 1); ++a)
-      for (int b = a + 1; b < regions.size(); ++b) {
-        if (regions.plane(a).normal.dot(regions.plane(b).normal) < LEAST_COSINE ||
-            !gap.mayBeNarrow(a, b))
-          continue;
-        const double c = cost(a, b, jointOf(a, b));
-        if (c >= 0 && c <= limit)
-          found[static_cast<std::size_t>(band)].push_back({c, a, b, 0});
-      }
-  });
-  FrameVector<Candidate> pairs;
-  for (const FrameVector<Candidate>& some : found)
-    pairs.insert(pairs.end(), some.begin(), some.end());
-  std::sort(pairs.begin(), pairs.end(),
-            [](const Candidate& p, const Candidate& q) { return q < p; });
-
-  for (const Candidate& pair : pairs) {
-    const int a = regions.find(pair.a);
-    const int b = regions.find(pair.b);
-    if (a == b)
-      continue;
-    const FittedPlane joint = jointOf(a, b);
-    const double c = cost(a, b, joint); // either may have grown since
-    if (c < 0 || c > limit)
-      continue;
-    const double tolerance =
-        BEHIND * std::sqrt(allowedVariance(joint, noise, parameters));
-    if (gap.mayHidePlane(pair.a, pair.b, joint, tolerance))
-      regions.merge(a, b, joint);
-  }
-  return collect(regions, std::move(parts.cell_region), 0.5 * parameters.min_points,
-                 threads);
+  CoplanarJoining joining(parts, points, cells, noise, parameters, threads);
+  return collect(joining.run(), std::move(parts.cell_region),
+                 0.5 * parameters.min_points, threads);
 }
 
 } // namespace pcl_mrf_planes::adaptive

@@ -94,7 +94,7 @@ public:
                  const FittedRegions& regions, unsigned int threads)
   : parameters_(parameters)
   , regions_(regions)
-  , largest_(parameters.fan_share * static_cast<double>(points.countValid()))
+  , largest_(parameters.fan_share * static_cast<double>(points.countValid(threads)))
   , bends_(measureBends(points, image.runs, regions.planes, threads))
   {
     const RegionBorders borders =
@@ -172,6 +172,7 @@ void dropDoubtfulPlanes(const OrganizedPoints& points, const NoiseLaw& noise,
   const CurvedSurfaces curved(points, image, noise, parameters, regions, threads);
   FrameVector<std::uint16_t> id(regions.planes.size() + 1, 0);
   FittedRegions kept;
+  kept.reserve(regions.planes.size());
   for (std::size_t k = 0; k < regions.planes.size(); ++k)
     if (!curved.has(k) && isEvident(regions.planes[k], parameters)) {
       kept.add(regions.planes[k], regions.sums[k]);

@@ -31,24 +31,39 @@ struct TileWindow {
   int left, right, top, bottom;
 };
 
-/// How many tiles of any window are so: from sums over all that lie above and to the left.
+/// Tiles with a plane, and those of them that show no more noise than the whole cloud.
+struct TileCount {
+  int with_plane = 0;
+  int quiet = 0;
+
+  friend TileCount operator+(const TileCount& a, const TileCount& b)
+  {
+    return {a.with_plane + b.with_plane, a.quiet + b.quiet};
+  }
+  friend TileCount operator-(const TileCount& a, const TileCount& b)
+  {
+    return {a.with_plane - b.with_plane, a.quiet - b.quiet};
+  }
+};
+
+/// Counts the tiles of any window: from sums over all that lie above and to the left.
 class TileCounts {
 public:
-  template <typename Predicate>
-  TileCounts(const TileLevel& level, const Predicate& is_so)
+  TileCounts(const TileLevel& level, const FrameVector<double>& ratios)
   : stride_(static_cast<std::size_t>(level.columns) + 1)
-  , sums_(stride_ * (static_cast<std::size_t>(level.rows) + 1), 0)
+  , sums_(stride_ * (static_cast<std::size_t>(level.rows) + 1))
   {
     for (int r = 0; r < level.rows; ++r) {
-      int row = 0;
+      TileCount row;
       for (int c = 0; c < level.columns; ++c) {
-        row += is_so(level.at(c, r)) ? 1 : 0;
+        const double ratio = ratios[level.at(c, r)];
+        row = row + TileCount{ratio > 0 ? 1 : 0, ratio > 0 && ratio <= 1 ? 1 : 0};
         sums_[at(c + 1, r + 1)] = sums_[at(c + 1, r)] + row;
       }
     }
   }
 
-  int in(const TileWindow& window) const
+  TileCount in(const TileWindow& window) const
   {
     return sums_[at(window.right, window.bottom)] -
            sums_[at(window.left, window.bottom)] - sums_[at(window.right, window.top)] +
@@ -62,7 +77,7 @@ private:
   }
 
   std::size_t stride_;
-  FrameVector<int> sums_;
+  FrameVector<TileCount> sums_;
 };
 
 /// Noise around each square of 2x2 tiles of a level over that of the whole cloud: a low
@@ -75,17 +90,15 @@ FrameVector<double> localFactors(const TileLevel& level, const TileLevel& square
   constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
   const FrameVector<double> ratios = noiseRatios(level, noise, threads);
-  const TileCounts with_plane(level, [&](std::size_t i) { return ratios[i] > 0; });
-  const TileCounts quiet(
-      level, [&](std::size_t i) { return ratios[i] > 0 && ratios[i] <= 1; });
+  const TileCounts counts(level, ratios);
   FrameVector<double> factors(squares.at(0, squares.rows), 1.0);
   const auto findRow = [&](int r, FrameVector<double>& around) {
     for (int c = 0; c < squares.columns; ++c) {
       const TileWindow window = {
           std::max(0, 2 * c - reach), std::min(level.columns, 2 * c + 2 + reach),
           std::max(0, 2 * r - reach), std::min(level.rows, 2 * r + 2 + reach)};
-      const int tiles = with_plane.in(window);
-      if (tiles < FEWEST || quiet.in(window) > parameters.local_percentile * tiles)
+      const auto [tiles, quiet] = counts.in(window);
+      if (tiles < FEWEST || quiet > parameters.local_percentile * tiles)
         continue;
       around.clear();
       for (int j = window.top; j < window.bottom; ++j)

@@ -16,7 +16,8 @@ namespace pcl_mrf_planes::adaptive {
 namespace {
 
 struct Sample {
-  double z, rms;
+  double z = 0;
+  double rms = 0;
 };
 
 /// That percentile of the tiles at one depth, as long as it can be noise: where more of them
@@ -301,21 +302,39 @@ void estimateGrowth(const std::vector<TileLevel>& pyramid,
 
 } // namespace
 
+namespace {
+
+/// Depth and rms distance of every so many-th of the planes.
+FrameVector<Sample> samplePlanes(const std::vector<FittedPlane>& planes,
+                                 unsigned int threads)
+{
+  constexpr std::size_t ENOUGH = 2000; // samples
+  // An odd step goes through all columns.
+  const std::size_t step = (planes.size() / ENOUGH) | 1U;
+  const Bands bands(static_cast<int>((planes.size() + step - 1) / step));
+  FrameVector<Sample> samples(static_cast<std::size_t>(bands.rows));
+  parallelParts(bands.count, threads, [&](int band) {
+    for (int k = bands.begin(band); k < bands.begin(band + 1); ++k)
+      if (const FittedPlane& p = planes[static_cast<std::size_t>(k) * step]; p.n > 3)
+        samples[static_cast<std::size_t>(k)] = {p.centroid.norm(), unbiasedRms(p)};
+      else
+        samples[static_cast<std::size_t>(k)].rms = -1; // none
+  });
+  samples.erase(std::remove_if(samples.begin(), samples.end(),
+                               [](const Sample& sample) { return sample.rms < 0; }),
+                samples.end());
+  return samples;
+}
+
+} // namespace
+
 NoiseLaw estimateNoise(const std::vector<TileLevel>& pyramid,
                        const AdaptiveParameters& parameters, unsigned int threads)
 {
-  constexpr std::size_t ENOUGH = 2000; // samples
   NoiseLaw noise;
   noise.floor = parameters.min_sigma;
-  FrameVector<Sample> samples;
-  samples.reserve(2 * ENOUGH);
-  const std::vector<FittedPlane>& planes = pyramid[BASE].planes;
-  // An odd step goes through all columns.
-  const std::size_t step = (planes.size() / ENOUGH) | 1U;
-  for (std::size_t i = 0; i < planes.size(); i += step)
-    if (const FittedPlane& p = planes[i]; p.n > 3)
-      samples.push_back({p.centroid.norm(), unbiasedRms(p)});
-  fitDepthLaw(std::move(samples), parameters.noise_percentile, threads, noise);
+  fitDepthLaw(samplePlanes(pyramid[BASE].planes, threads), parameters.noise_percentile,
+              threads, noise);
   estimateGrowth(pyramid, parameters, threads, noise);
   return noise;
 }

@@ -73,16 +73,24 @@ FrameVector<Touch> touchesInside(const FrameVector<int>& cell_region,
   return touches;
 }
 
-/// Regions on either side of the border above a row of cells.
-void linkAcross(const FrameVector<int>& cell_region, const TileLevel& cells, int row,
-                Regions& regions)
+/// Links the regions on either side of the border above a row of cells.
+/// \return their roots, in order
+FrameVector<int> linkAcross(const FrameVector<int>& cell_region, const TileLevel& cells,
+                            int row, Regions& regions)
 {
+  FrameVector<int> linked;
   for (int c = 0; c < cells.columns; ++c) {
     const int above = cell_region[cells.at(c, row - 1)];
     const int below = cell_region[cells.at(c, row)];
-    if (above >= 0 && below >= 0)
-      regions.touch(regions.find(above), regions.find(below));
+    if (above < 0 || below < 0)
+      continue;
+    linked.push_back(regions.find(above));
+    linked.push_back(regions.find(below));
+    regions.touch(linked[linked.size() - 2], linked.back());
   }
+  std::sort(linked.begin(), linked.end());
+  linked.erase(std::unique(linked.begin(), linked.end()), linked.end());
+  return linked;
 }
 
 /// The tiles of some rows of cells, in the order of their numbers.
@@ -106,12 +114,11 @@ class Agglomeration {
 public:
   /// \param[in] tiles none but these have neighbours
   Agglomeration(Regions& regions, FrameVector<int> tiles, const NoiseLaw& noise,
-                const AdaptiveParameters& parameters, unsigned int threads)
+                const AdaptiveParameters& parameters)
   : regions_(regions)
   , tiles_(std::move(tiles))
   , noise_(noise)
   , parameters_(parameters)
-  , threads_(threads)
   , limit_(parameters.merge_tolerance * parameters.merge_tolerance)
   , queue_(static_cast<float>(limit_))
   , offered_(static_cast<std::size_t>(regions.size()), 0)
@@ -121,11 +128,18 @@ public:
   }
 
   /// Offers all pairs of neighbours, to be priced by priceBatch().
+  void begin() { findPairs(tiles_); }
+
+  /// The same where pairs without any of these regions, in order, are known to be no planes.
   /// \param[in] mark walks before this one
-  void begin(int mark)
+  void beginWith(const FrameVector<int>& regions, int mark)
   {
     mark_ = mark;
-    findPairs();
+    for (const int a : tiles_)
+      offered_[static_cast<std::size_t>(a)] = regions_.tiles(a);
+    for (const int a : regions)
+      offered_[static_cast<std::size_t>(a)] = 0;
+    findPairs(regions);
   }
 
   int batches() const
@@ -140,17 +154,22 @@ public:
     price(first, std::min(first + AT_ONCE, pairs_.size()));
   }
 
-  /// Merges until no two neighbours are one plane; what was too different may fit what has
-  /// grown. All pairs that begin() has offered have their price.
-  /// \return the mark after it
-  int run()
+  /// Merges while any pair on offer is one plane, all of which have their price, and offers
+  /// what has grown: what was too different may fit it.
+  void merge()
   {
-    while (mergePriced()) {
-      findPairs();
-      parallelParts(batches(), threads_, [&](int batch) { priceBatch(batch); });
+    if (!mergePriced()) {
+      pairs_.clear();
+      return;
     }
-    return mark_;
+    tiles_.erase(std::remove_if(tiles_.begin(), tiles_.end(),
+                                [&](int a) { return !regions_.isRoot(a); }),
+                 tiles_.end());
+    findPairs(tiles_);
   }
+
+  /// Walks so far.
+  int mark() const { return mark_; }
 
 private:
   static constexpr std::size_t PAIRS = 4; ///< for each tile at first, about
@@ -177,18 +196,17 @@ private:
     float cost;
   };
 
-  /// Offers all pairs of neighbours, as if one after the other, but for those that neither
+  /// Offers all pairs of neighbours whose first is one of these, but for those that neither
   /// has grown since they were found too different.
-  void findPairs()
+  void findPairs(const FrameVector<int>& regions)
   {
     pairs_.clear();
-    for (const int a : tiles_)
-      if (regions_.find(a) == a)
-        regions_.forEachNeighbour(a, ++mark_, [&](int b) {
-          if (a < b && (grew(a) || grew(b)))
-            pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
-        });
-    for (const int a : tiles_)
+    for (const int a : regions)
+      regions_.forEachNeighbour(a, ++mark_, [&](int b) {
+        if (a < b && (grew(a) || grew(b)))
+          pairs_.push_back({a, b, regions_.tiles(a) + regions_.tiles(b), 0.0F});
+      });
+    for (const int a : regions)
       offered_[static_cast<std::size_t>(a)] = regions_.tiles(a);
     joint_.resize(pairs_.size());
   }
@@ -263,11 +281,10 @@ private:
   }
 
   Regions& regions_;
-  FrameVector<int> tiles_;
-  int mark_ = 0; ///< of the last walk through neighbours
+  FrameVector<int> tiles_; ///< those that have not been merged into another
+  int mark_ = 0;           ///< of the last walk through neighbours
   const NoiseLaw& noise_;
   const AdaptiveParameters& parameters_;
-  unsigned int threads_;
   double limit_;
   CostQueue queue_;
   FrameVector<int> offered_;       ///< tiles of each region when it was last offered
@@ -275,6 +292,42 @@ private:
   FrameVector<FittedPlane> joint_; ///< plane of both
   std::size_t looked_at_ = 0;      ///< so many pairs, the first
 };
+
+using Group = std::optional<Agglomeration>;
+using Groups = FrameVector<Group>;
+
+/// Merges in groups of regions that are no neighbours of those in other groups. Some have
+/// more to merge than others: pairs of all groups are priced together.
+/// \return walks so far
+int mergeAll(Groups& groups, unsigned int threads)
+{
+  struct Batch {
+    Agglomeration* group;
+    int number;
+  };
+  FrameVector<Batch> batches;
+  while (true) {
+    batches.clear();
+    for (Group& group : groups)
+      for (int number = 0; number < group->batches(); ++number)
+        batches.push_back({&*group, number});
+    if (batches.empty())
+      break;
+    parallelParts(static_cast<int>(batches.size()), threads, [&](int k) {
+      const Batch& batch = batches[static_cast<std::size_t>(k)];
+      batch.group->priceBatch(batch.number);
+    });
+    parallelParts(static_cast<int>(groups.size()), threads, [&](int k) {
+      Group& group = groups[static_cast<std::size_t>(k)];
+      if (group->batches() > 0)
+        group->merge();
+    });
+  }
+  int walks = 0;
+  for (const Group& group : groups)
+    walks = std::max(walks, group->mark());
+  return walks;
+}
 
 } // namespace
 
@@ -298,37 +351,26 @@ TileRegions mergeTouching(TileRegions tiles, const std::vector<TileLevel>& pyram
         touchesInside(cell_region, cells, rows(half));
   });
   regions.touchAll(touches, threads);
-  std::array<std::optional<Agglomeration>, 2> inside;
-  const auto of = [&](int half) -> Agglomeration& {
-    return *inside[static_cast<std::size_t>(half)];
-  };
+  Groups inside(static_cast<std::size_t>(halves.count));
   parallelParts(halves.count, threads, [&](int half) {
-    inside[static_cast<std::size_t>(half)].emplace(
-        regions, tilesIn(cell_region, cells, rows(half), count), noise, parameters, 1U);
-    of(half).begin(0);
+    Group& group = inside[static_cast<std::size_t>(half)];
+    group.emplace(regions, tilesIn(cell_region, cells, rows(half), count), noise,
+                  parameters);
+    group->begin();
   });
-  // One half has more to merge than the other: what both can do of it comes first.
-  const int upper = of(0).batches();
-  parallelParts(upper + (halves.count > 1 ? of(1).batches() : 0), threads,
-                [&](int batch) {
-                  if (batch < upper)
-                    of(0).priceBatch(batch);
-                  else
-                    of(1).priceBatch(batch - upper);
-                });
-  std::array<int, 2> marks = {};
-  parallelParts(halves.count, threads, [&](int half) {
-    marks[static_cast<std::size_t>(half)] = of(half).run();
-    inside[static_cast<std::size_t>(half)].reset();
-  });
+  const int walks = mergeAll(inside, threads);
   if (halves.count > 1) {
-    linkAcross(cell_region, cells, rows(1).begin, regions);
-    FrameVector<int> all(count);
-    std::iota(all.begin(), all.end(), 0);
-    Agglomeration both(regions, std::move(all), noise, parameters, threads);
-    both.begin(std::max(marks[0], marks[1]));
-    parallelParts(both.batches(), threads, [&](int batch) { both.priceBatch(batch); });
-    both.run();
+    inside.clear();
+    const FrameVector<int> linked =
+        linkAcross(cell_region, cells, rows(1).begin, regions);
+    FrameVector<int> roots;
+    for (int tile = 0; tile < regions.size(); ++tile)
+      if (regions.isRoot(tile))
+        roots.push_back(tile);
+    Groups both(1);
+    both[0].emplace(regions, std::move(roots), noise, parameters);
+    both[0]->beginWith(linked, walks);
+    mergeAll(both, threads);
   }
   return collect(regions, std::move(cell_region), 0.5 * parameters.min_points, threads);
 }

@@ -10,6 +10,12 @@ struct FittedRegions {
   FrameVector<TileSums> sums;
   FrameVector<FittedPlane> planes;
 
+  void reserve(std::size_t count)
+  {
+    planes.reserve(count);
+    sums.reserve(count);
+  }
+
   void add(const FittedPlane& plane, const TileSums& sum)
   {
     planes.push_back(plane);

@@ -19,17 +19,22 @@ double dissimilarity(const FittedPlane& a, const FittedPlane& b,
 TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least,
                     unsigned int threads)
 {
-  TileRegions out;
+  FrameVector<int> kept; // roots
   FrameVector<int> id(static_cast<std::size_t>(regions.size()) + 1, -1);
   int* const number = id.data() + 1; // of each set, and in front of them of none
   for (int i = 0; i < regions.size(); ++i)
-    if (regions.find(i) == i && regions.sums(i).n >= least) {
-      number[i] = static_cast<int>(out.planes.size());
-      out.planes.push_back(regions.plane(i));
-      out.sums.push_back(regions.sums(i));
+    if (regions.isRoot(i) && regions.sums(i).n >= least) {
+      number[i] = static_cast<int>(kept.size());
+      kept.push_back(i);
     }
-  for (int i = 0; i < regions.size(); ++i)
-    number[i] = number[regions.find(i)];
+  TileRegions out;
+  out.reserve(kept.size());
+  for (const int root : kept)
+    out.add(regions.plane(root), regions.sums(root));
+  parallelRows(regions.size(), threads, [&](int i) {
+    if (const int root = regions.rootOf(i); root != i)
+      number[i] = number[root];
+  });
   const Bands bands(static_cast<int>(cell_region.size()));
   parallelParts(bands.count, threads, [&](int band) {
     for (int cell = bands.begin(band); cell < bands.begin(band + 1); ++cell) {

@@ -39,6 +39,16 @@ public:
     return i;
   }
 
+  /// The same; any number of threads may ask, as nothing is written.
+  int rootOf(int i) const
+  {
+    while (parent_[static_cast<std::size_t>(i)] != i)
+      i = parent_[static_cast<std::size_t>(i)];
+    return i;
+  }
+
+  bool isRoot(int i) const { return parent_[static_cast<std::size_t>(i)] == i; }
+
   void touch(int a, int b)
   {
     if (isLast(a, b))

@@ -16,12 +16,16 @@ namespace {
 /// Labels of 4-connected parts below the least size become 0.
 void dropSmallParts(int least, LabelledPoints& image, unsigned int threads)
 {
-  const RunParts parts = connectRuns(image.runs, threads);
-  for (std::size_t k = 0; k < image.runs.runs.size(); ++k)
-    if (parts.size[static_cast<std::size_t>(parts.part_of_run[k])] < least) {
-      fillRun(image.runs.runs[k], 0, image.labels);
-      image.runs.runs[k].label = 0;
-    }
+  LabelRuns& runs = image.runs;
+  const RunRoots roots(runs, threads);
+  parallelRows(static_cast<int>(runs.rows.size()) - 1, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = runs.rows[r]; k < runs.rows[r + 1]; ++k)
+      if (roots.points(k) < least) {
+        fillRun(runs.runs[k], 0, image.labels);
+        runs.runs[k].label = 0;
+      }
+  });
 }
 
 /// Sums of the points of each label; blocks and cells that are of one label as a whole are
@@ -166,10 +170,9 @@ public:
   {}
 
   /// \return whether the points of a label, or all of them but a few, are a plane; those few
-  /// are then taken out of their sums
+  /// are then taken out of their sums \param[in,out] plane of the sums
   bool fit(std::uint16_t label, TileSums& sums, FittedPlane& plane) const
   {
-    plane = fitSums(sums);
     if (isPlane(plane, parameters_.min_points, noise_, parameters_))
       return true;
     if (plane.n < parameters_.min_points)
@@ -221,18 +224,18 @@ FittedRegions refineRegions(const OrganizedPoints& points,
                             unsigned int threads)
 {
   dropSmallParts(parameters.min_points, image, threads);
-  std::size_t count = 1;
-  for (const LabelRun& run : image.runs.runs)
-    count = std::max<std::size_t>(count, run.label + 1U);
+  const std::size_t count = before.planes.size() + 1;
   FrameVector<TileSums> sums = sumLabels(points, pyramid, image.labels, count, threads);
   const Refit refit(points, image.runs, before, noise, parameters);
+  FrameVector<FittedPlane> planes(count);
+  fitPlanes(sums.data(), count, planes.data());
   FittedRegions out;
+  out.reserve(count);
   FrameVector<std::uint16_t> id(count, 0);
   for (std::size_t k = 1; k < count; ++k) {
-    FittedPlane plane;
-    if (!refit.fit(static_cast<std::uint16_t>(k), sums[k], plane))
+    if (!refit.fit(static_cast<std::uint16_t>(k), sums[k], planes[k]))
       continue;
-    out.add(plane, sums[k]);
+    out.add(planes[k], sums[k]);
     id[k] = static_cast<std::uint16_t>(out.planes.size());
   }
   image.renumber(id, threads);

@@ -134,10 +134,10 @@ FrameVector<Bend> measureBends(const OrganizedPoints& points, const LabelRuns& i
                          addRun(run, row, of_rows[run.label - 1U]);
                    }
                  });
-  FrameVector<Bend> bends;
-  bends.reserve(sums.size());
-  for (const QuadricSums& sum : sums)
-    bends.push_back(sum.bend());
+  FrameVector<Bend> bends(sums.size());
+  parallelRows(static_cast<int>(sums.size()), threads, [&](int k) {
+    bends[static_cast<std::size_t>(k)] = sums[static_cast<std::size_t>(k)].bend();
+  });
   return bends;
 }
 

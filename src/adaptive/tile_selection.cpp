@@ -26,8 +26,7 @@ public:
   /// \param[in] tiles that the part can have
   void reserve(std::size_t tiles)
   {
-    regions.planes.reserve(tiles);
-    regions.sums.reserve(tiles);
+    regions.reserve(tiles);
     const auto columns = static_cast<std::size_t>(cells_.columns);
     free_.reserve(columns);
     sums_.reserve(columns);
@@ -157,8 +156,12 @@ TileRegions selectTiles(const std::vector<TileLevel>& pyramid, const NoiseLaw& n
   });
 
   const TileNumbering number(parts, starts);
-  out.planes.resize(number.count());
-  out.sums.resize(number.count());
+  parallelParts(2, threads, [&](int part) {
+    if (part == 0)
+      out.planes.resize(number.count());
+    else
+      out.sums.resize(number.count());
+  });
   parallelParts(bands.count, threads, [&](int band) {
     const auto part = static_cast<std::size_t>(band);
     const FittedRegions& found = parts[part].regions;

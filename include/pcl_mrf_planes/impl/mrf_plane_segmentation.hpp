@@ -3,7 +3,6 @@
 
 #include <pcl_mrf_planes/mrf_plane_segmentation.h>
 #include <pcl_mrf_planes/region_contour.h>
-#include <pcl_mrf_planes/thread_scope.h>
 
 #include <pcl/console/print.h>
 
@@ -27,7 +26,9 @@ void MRFPlaneSegmentation<PointT>::segment(
     std::vector<ModelCoefficients>& model_coefficients,
     std::vector<PointIndices>& inlier_indices)
 {
-  const bool done = run([&] { fillModels(model_coefficients, inlier_indices); });
+  const bool done = run([&](const Threads& threads) {
+    fillModels(threads, model_coefficients, inlier_indices);
+  });
   if (!done) {
     model_coefficients.clear();
     inlier_indices.clear();
@@ -44,9 +45,9 @@ void MRFPlaneSegmentation<PointT>::segment(
   centroids.clear();
   covariances.clear();
   labels.clear();
-  const bool done = run([&] {
-    fillModels(model_coefficients, inlier_indices);
-    fillLabels(labels, label_indices);
+  const bool done = run([&](const Threads& threads) {
+    fillModels(threads, model_coefficients, inlier_indices);
+    fillLabels(threads, labels, label_indices);
     for (const auto& region : result_.regions) {
       const Eigen::Vector3d centroid = pose_.rotation * region.centroid + pose_.origin;
       centroids.push_back(centroid.homogeneous().template cast<float>());
@@ -70,7 +71,7 @@ void MRFPlaneSegmentation<PointT>::segment(PlanarRegions& regions)
 {
   regions.clear();
   std::vector<PointIndices> boundaries;
-  run([&] { fillRegions(regions, boundaries); });
+  run([&](const Threads&) { fillRegions(regions, boundaries); });
 }
 
 template <typename PointT>
@@ -85,9 +86,9 @@ void MRFPlaneSegmentation<PointT>::segmentAndRefine(
   if (!labels)
     labels.reset(new PointCloudL);
   labels->clear();
-  const bool done = run([&] {
-    fillModels(model_coefficients, inlier_indices);
-    fillLabels(*labels, label_indices);
+  const bool done = run([&](const Threads& threads) {
+    fillModels(threads, model_coefficients, inlier_indices);
+    fillLabels(threads, *labels, label_indices);
     fillRegions(regions, boundary_indices);
   });
   if (!done) {
@@ -121,7 +122,7 @@ bool MRFPlaneSegmentation<PointT>::tryToSegment(const Fill& fill)
 {
   try {
     const auto start = std::chrono::steady_clock::now();
-    const pcl_mrf_planes::ThreadScope threads(parameters_.number_of_threads);
+    const Threads threads(parameters_.number_of_threads);
     readPoints();
     const std::chrono::duration<double, std::milli> reading =
         std::chrono::steady_clock::now() - start;
@@ -130,7 +131,7 @@ bool MRFPlaneSegmentation<PointT>::tryToSegment(const Fill& fill)
     stages.emplace(stages.begin(), "points", reading.count());
     if (separate_patches_)
       separatePatches();
-    fill();
+    fill(threads);
     return true;
   }
   catch (const std::bad_alloc&) {
@@ -261,7 +262,7 @@ void MRFPlaneSegmentation<PointT>::readPoints()
     points_.fill(width, height, moved);
   if (!fake_indices_)
     limitToIndices();
-  points_.resolveDepthMeasure(parameters_.depth_measure);
+  points_.resolveDepthMeasure(parameters_.depth_measure, parameters_.number_of_threads);
 }
 
 template <typename PointT>
@@ -320,13 +321,14 @@ void MRFPlaneSegmentation<PointT>::resizeOutput(std::vector<Output>& output,
 
 template <typename PointT>
 void MRFPlaneSegmentation<PointT>::fillModels(
-    std::vector<ModelCoefficients>& model_coefficients,
+    const Threads& threads, std::vector<ModelCoefficients>& model_coefficients,
     std::vector<PointIndices>& inlier_indices)
 {
   // What is there already is written over: a sequence needs no new memory.
   resizeOutput(model_coefficients, result_.regions.size(), spare_coefficients_);
   resizeOutput(inlier_indices, result_.regions.size(), spare_inliers_);
-  for (std::size_t k = 0; k < result_.regions.size(); ++k) {
+  threads.share(static_cast<int>(result_.regions.size()), [&](int number) {
+    const auto k = static_cast<std::size_t>(number);
     const auto& region = result_.regions[k];
     ModelCoefficients& model = model_coefficients[k];
     model.header = input_->header;
@@ -337,11 +339,12 @@ void MRFPlaneSegmentation<PointT>::fillModels(
     PointIndices& inliers = inlier_indices[k];
     inliers.header = input_->header;
     inliers.indices.assign(region.indices.begin(), region.indices.end());
-  }
+  });
 }
 
 template <typename PointT>
-void MRFPlaneSegmentation<PointT>::fillLabels(PointCloudL& labels,
+void MRFPlaneSegmentation<PointT>::fillLabels(const Threads& threads,
+                                              PointCloudL& labels,
                                               std::vector<PointIndices>& label_indices)
 {
   labels.header = input_->header;
@@ -351,17 +354,21 @@ void MRFPlaneSegmentation<PointT>::fillLabels(PointCloudL& labels,
   labels.is_dense = true;
   labels.sensor_origin_ = input_->sensor_origin_;
   labels.sensor_orientation_ = input_->sensor_orientation_;
-  for (std::size_t i = 0; i < result_.labels.size(); ++i)
-    labels[i].label = result_.labels[i];
+  threads.share(static_cast<int>(labels.height), [&](int row) {
+    const std::size_t begin = static_cast<std::size_t>(row) * labels.width;
+    for (std::size_t i = begin; i < begin + labels.width; ++i)
+      labels[i].label = result_.labels[i];
+  });
 
   resizeOutput(label_indices, result_.regions.size() + 1, spare_label_indices_);
   label_indices[0].header = {};
   label_indices[0].indices.clear();
-  for (std::size_t k = 0; k < result_.regions.size(); ++k) {
+  threads.share(static_cast<int>(result_.regions.size()), [&](int number) {
+    const auto k = static_cast<std::size_t>(number);
     const auto& indices = result_.regions[k].indices;
     label_indices[k + 1].header = input_->header;
     label_indices[k + 1].indices.assign(indices.begin(), indices.end());
-  }
+  });
 }
 
 template <typename PointT>
