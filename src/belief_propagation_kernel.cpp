@@ -122,10 +122,12 @@ public:
     findActive();
     // Where no weight reaches the least price, all of it comes off whatever the labels
     // are, and so off the least sum.
-    if (hn::AllFalse(d, hn::Lt(least_price, heaviest)))
+    if (!hn::AllFalse(d, hn::Lt(least_price, heaviest)))
+      sendAll<false>();
+    else if (row_.hasHeard())
       sendAll<true>();
     else
-      sendAll<false>();
+      sendFirst();
   }
 
   /// Messages max(pairwise, scale * weight): the diagonal is not free, so every
@@ -160,6 +162,32 @@ private:
       least_[to] = hn::Set(d, PairPrices::NO_EDGE);
       most_[to] = hn::Zero(d);
     }
+    if (row_.hasHeard())
+      learnByMessages(at);
+    else
+      learnByData(at);
+  }
+
+  HWY_INLINE void learnByData(std::ptrdiff_t at)
+  {
+    const Tag d;
+    std::uint16_t* h = scratch_.h;
+    for (int l = labels_; l > 0; --l, at += row_.label_stride) {
+      const Vec data = hn::LoadU(d, row_.data + at);
+      for (int to = 0; to < DIRECTIONS; ++to, h += hn::Lanes(d))
+        hn::Store(data, d, h);
+      least_[0] = hn::Min(least_[0], data);
+      most_[0] = hn::Max(most_[0], data);
+    }
+    for (int to = 1; to < DIRECTIONS; ++to) {
+      least_[to] = least_[0];
+      most_[to] = most_[0];
+    }
+  }
+
+  HWY_INLINE void learnByMessages(std::ptrdiff_t at)
+  {
+    const Tag d;
     const SitePointers costs(row_);
     std::uint16_t* h = scratch_.h;
     for (int l = labels_; l > 0; --l, at += row_.label_stride) {
@@ -248,10 +276,48 @@ private:
         Vec least = message[j][to];
         if (LIGHT)
           least = hn::Min(known(b + j, to), hn::SaturatedSub(least, weight_[to]));
-        store_.store(hn::IfThenElseZero(edge(to), hn::Sub(least, least_[to])),
-                     target_[to] +
-                         static_cast<std::ptrdiff_t>(b + j) * row_.label_stride);
+        store(b + j, to, least);
       }
+  }
+
+  /// Of sites that have heard nothing: they know the same beside every neighbour.
+  HWY_INLINE void sendFirst()
+  {
+    constexpr int AT_ONCE = 4; // labels
+    int b = 0;
+    for (; b + AT_ONCE <= labels_; b += AT_ONCE)
+      sendFirst<AT_ONCE>(b);
+    for (; b < labels_; ++b)
+      sendFirst<1>(b);
+  }
+
+  template <int LABELS>
+  HWY_INLINE void sendFirst(int b)
+  {
+    const Tag d;
+    const std::uint32_t* const prices =
+        row_.prices_twice + static_cast<std::ptrdiff_t>(b) * labels_;
+    Vec best[LABELS];
+    for (int j = 0; j < LABELS; ++j)
+      best[j] = hn::Set(d, PairPrices::NO_EDGE);
+    for (int i = 0; i < count_; ++i) {
+      const int a = scratch_.active[static_cast<std::size_t>(i)];
+      const Vec h = known(a, 0);
+      for (int j = 0; j < LABELS; ++j)
+        best[j] = hn::Min(best[j], hn::Add(h, priceOf(prices[j * labels_ + a])));
+    }
+    for (int j = 0; j < LABELS; ++j)
+      for (int to = 0; to < DIRECTIONS; ++to)
+        if (target_[to] != nullptr)
+          store(b + j, to,
+                hn::Min(known(b + j, to), hn::SaturatedSub(best[j], weight_[to])));
+  }
+
+  /// Stores a message, less its least value.
+  HWY_INLINE void store(int label, int to, Vec message)
+  {
+    store_.store(hn::IfThenElseZero(edge(to), hn::Sub(message, least_[to])),
+                 target_[to] + static_cast<std::ptrdiff_t>(label) * row_.label_stride);
   }
 
   HWY_INLINE void sendScaledMaximum(int to)

@@ -45,7 +45,10 @@ struct SiteRow {
   const std::uint16_t* scale = nullptr;        ///< L x L
   std::uint16_t least_pairwise = 0;            ///< least cost of two different labels
   const std::uint16_t* data = nullptr;
-  const std::uint16_t* received[DIRECTIONS] = {}; ///< by the sender's direction
+  /// By the sender's direction; none, of all directions, where no message has come yet.
+  const std::uint16_t* received[DIRECTIONS] = {};
+
+  bool hasHeard() const { return received[LEFT] != nullptr; }
 };
 
 /// Where the messages of a row go, for each direction: the row that receives them

@@ -72,16 +72,16 @@ public:
   void run(const Finish& finish)
   {
     // Iteration t is at row step - t; row step is about to receive its first messages.
-    clearMessages(top_);
+    startMessages(top_);
     for (int step = top_ + 1; step - iterations_ - 1 < bottom_; ++step) {
       if (step < bottom_)
-        clearMessages(step);
+        startMessages(step);
       if (step - 1 < bottom_)
         field_.fillRow(step - 1, fieldRow(step - 1));
       for (int t = 1; t <= sent_; ++t) {
         const int y = step - t;
         if (y >= top_ && y < bottom_)
-          send((t - 1) & 1, y);
+          send(t, y);
       }
       const int done = step - iterations_ - 1;
       if (done >= first_ && done < last_)
@@ -143,13 +143,32 @@ private:
     return received_[direction][colour].data() + layout_.rowStart(slot(y), labels_);
   }
 
-  void clearMessages(int y)
+  /// Messages of a row as none have come. The first ones of each colour are written before
+  /// any is read, but for those from beyond the border of the image, or of the band.
+  void startMessages(int y)
   {
-    const std::size_t start = layout_.bufferSize(slot(y), labels_);
-    for (auto& direction : received_)
-      for (auto& colour : direction)
-        std::fill_n(colour.begin() + static_cast<std::ptrdiff_t>(start),
-                    layout_.bufferSize(1, labels_), std::uint16_t{0});
+    const auto start =
+        static_cast<std::ptrdiff_t>(layout_.bufferSize(slot(y), labels_));
+    for (int colour = 0; colour < 2; ++colour) {
+      const bool all = sent_ < 2 - colour; // colour 1 hears first
+      for (int direction = 0; direction < DIRECTIONS; ++direction)
+        if (all || (direction == ABOVE && y == top_) ||
+            (direction == BELOW && y + 1 == bottom_))
+          std::fill_n(received_[direction][colour].begin() + start,
+                      layout_.bufferSize(1, labels_), std::uint16_t{0});
+      if (!all)
+        clearEnds(colour, y);
+    }
+  }
+
+  /// Nobody sends to the ends of a row from outside.
+  void clearEnds(int colour, int y)
+  {
+    const int last = layout_.sitesInRow(y, colour) - 1;
+    for (int l = 0; last >= 0 && l < labels_; ++l) {
+      received(LEFT, colour, y)[l * layout_.stride] = 0;
+      received(RIGHT, colour, y)[l * layout_.stride + last] = 0;
+    }
   }
 
   SiteRow siteRow(int colour, int y)
@@ -183,8 +202,10 @@ private:
     return undecided;
   }
 
-  void send(int colour, int y)
+  /// \param[in] t the iteration, from 1
+  void send(int t, int y)
   {
+    const int colour = (t - 1) & 1;
     const int other = 1 - colour;
     const FieldRow here = fieldRow(y);
     SendRow rows;
@@ -201,7 +222,10 @@ private:
       rows.weight[BELOW] = here.down[colour];
     }
     alignToSenders(rows, colour, y);
-    sendRow(siteRow(colour, y), rows, scratch_);
+    SiteRow row = siteRow(colour, y);
+    if (t == 1)
+      std::fill_n(row.received, DIRECTIONS, nullptr);
+    sendRow(row, rows, scratch_);
   }
 
   const FieldRows& field_;
