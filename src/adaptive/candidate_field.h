@@ -116,7 +116,7 @@ struct ActiveBlock {
   std::size_t first;            ///< costs of its first row
   std::size_t neighbour[SIDES]; ///< active block on each side, or SETTLED
   SlotMap
-      slot[SIDES]; ///< where an active neighbour's labels are among those of this block
+      slot[SIDES]; ///< where its labels, if it is active, are among those of this one
 };
 
 /// Memory of belief propagation.

@@ -169,8 +169,8 @@ public:
   , parameters_(parameters)
   {}
 
-  /// \return whether the points of a label, or all of them but a few, are a plane; those few
-  /// are then taken out of their sums \param[in,out] plane of the sums
+  /// \param[in,out] sums, plane of the points of a label
+  /// \return whether all of them, or all but a few, are a plane; those few are then taken out
   bool fit(std::uint16_t label, TileSums& sums, FittedPlane& plane) const
   {
     if (isPlane(plane, parameters_.min_points, noise_, parameters_))
