@@ -311,14 +311,13 @@ FrameVector<Sample> samplePlanes(const std::vector<FittedPlane>& planes,
   constexpr std::size_t ENOUGH = 2000; // samples
   // An odd step goes through all columns.
   const std::size_t step = (planes.size() / ENOUGH) | 1U;
-  const Bands bands(static_cast<int>((planes.size() + step - 1) / step));
-  FrameVector<Sample> samples(static_cast<std::size_t>(bands.rows));
-  parallelParts(bands.count, threads, [&](int band) {
-    for (int k = bands.begin(band); k < bands.begin(band + 1); ++k)
-      if (const FittedPlane& p = planes[static_cast<std::size_t>(k) * step]; p.n > 3)
-        samples[static_cast<std::size_t>(k)] = {p.centroid.norm(), unbiasedRms(p)};
-      else
-        samples[static_cast<std::size_t>(k)].rms = -1; // none
+  FrameVector<Sample> samples((planes.size() + step - 1) / step);
+  parallelRows(static_cast<int>(samples.size()), threads, [&](int number) {
+    const auto k = static_cast<std::size_t>(number);
+    if (const FittedPlane& p = planes[k * step]; p.n > 3)
+      samples[k] = {p.centroid.norm(), unbiasedRms(p)};
+    else
+      samples[k].rms = -1; // none
   });
   samples.erase(std::remove_if(samples.begin(), samples.end(),
                                [](const Sample& sample) { return sample.rms < 0; }),

@@ -35,12 +35,9 @@ TileRegions collect(Regions& regions, FrameVector<int> cell_region, double least
     if (const int root = regions.rootOf(i); root != i)
       number[i] = number[root];
   });
-  const Bands bands(static_cast<int>(cell_region.size()));
-  parallelParts(bands.count, threads, [&](int band) {
-    for (int cell = bands.begin(band); cell < bands.begin(band + 1); ++cell) {
-      int& region = cell_region[static_cast<std::size_t>(cell)];
-      region = number[region]; // none stays none
-    }
+  parallelRows(static_cast<int>(cell_region.size()), threads, [&](int cell) {
+    int& region = cell_region[static_cast<std::size_t>(cell)];
+    region = number[region]; // none stays none
   });
   out.cell_region = std::move(cell_region);
   return out;
