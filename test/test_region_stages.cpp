@@ -216,11 +216,11 @@ TEST(RegionStagesTest, SmallPartsLoseTheirLabelAndLargeOnesKeepIt)
     refineRegions(points, pyramid, wallTwice(), whiteNoise(0.01), parameters, image);
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (labels[i] == 0) {
-        EXPECT_EQ(image.labels[i], 0);
+        EXPECT_EQ(image.at(i), 0);
         continue;
       }
       const int size = parts.size[static_cast<std::size_t>(parts.part_of_point[i])];
-      ASSERT_EQ(image.labels[i] != 0, size >= parameters.min_points)
+      ASSERT_EQ(image.at(i) != 0, size >= parameters.min_points)
           << "a part of " << size << " points in run " << run;
       dropped += size < parameters.min_points ? 1U : 0U;
     }

@@ -74,7 +74,7 @@ public:
     LabelledPoints image(labels_, SIDE);
     dropDoubtfulPlanes(points_, noise, parameters, regions, image);
     const std::size_t middle = (SIDE / 2) * SIDE + SIDE / 2;
-    return image.labels[middle] != 0;
+    return image.at(middle) != 0;
   }
 
 private:

@@ -147,8 +147,10 @@ Labelling labelPlanes(const OrganizedPoints& points, const Parameters& all_param
   timer.finish("propagation");
   FittedRegions fitted =
       refineRegions(points, pyramid, regions, noise, parameters, image, threads);
-  if (observer != nullptr)
+  if (observer != nullptr) {
+    image.write();
     observer->seeImage(Stage::REFINED, fitted, image);
+  }
   dropDoubtfulPlanes(points, noise, parameters, fitted, image, threads);
   timer.finish("refinement");
   return {noise, std::move(fitted), std::move(image)};
@@ -165,6 +167,7 @@ Labelling labelSampled(const OrganizedPoints& points, int every,
   watch.timer.finish("sampling");
   Labelling found =
       labelPlanes(samples, parameters, watch, workspace, std::move(workspace.labels));
+  found.image.write(threads);
   spreadLabels(points, samples, found.image.labels, every, found.fitted.planes,
                found.noise, parameters.adaptive, threads, labels);
   workspace.labels = std::move(found.image.labels);

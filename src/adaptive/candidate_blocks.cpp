@@ -21,25 +21,38 @@ public:
   , reach_(reach)
   {}
 
-  /// Looks at the cells of a block and so many around it.
-  void look(int block_column, int block_row)
+  /// Looks at a row of blocks: before its blocks.
+  void lookAtRow(int block_row)
   {
-    column_ = block_column * CELLS;
     row_ = block_row * CELLS;
-    left_ = std::max(0, column_ - reach_);
-    right_ = std::min(cells_.columns, column_ + CELLS + reach_);
     top_ = std::max(0, row_ - reach_);
     bottom_ = std::min(cells_.rows, row_ + CELLS + reach_);
+    const auto columns = static_cast<std::size_t>(cells_.columns);
+    const int* const first = &regions_.cell_region[cells_.at(0, row_)];
+    differ_.assign(columns, 0);
+    for (int r = top_; r < bottom_; ++r) {
+      const int* const region = &regions_.cell_region[cells_.at(0, r)];
+      for (std::size_t c = 0; c < columns; ++c)
+        differ_[c] |= region[c] ^ first[c];
+    }
+  }
+
+  /// Looks at the cells of a block of the row and so many around it.
+  void look(int block_column)
+  {
+    column_ = block_column * CELLS;
+    left_ = std::max(0, column_ - reach_);
+    right_ = std::min(cells_.columns, column_ + CELLS + reach_);
   }
 
   /// The one region of all cells, -1 for none; unless they differ.
   bool isUniform(int& region) const
   {
-    region = regions_.cell_region[cells_.at(column_, row_)];
+    const int* const of_row = &regions_.cell_region[cells_.at(0, row_)];
+    region = of_row[column_];
     int differ = 0;
-    for (int r = top_; r < bottom_; ++r)
-      for (int c = left_; c < right_; ++c)
-        differ |= regions_.cell_region[cells_.at(c, r)] ^ region;
+    for (int c = left_; c < right_; ++c)
+      differ |= differ_[static_cast<std::size_t>(c)] | (of_row[c] ^ region);
     return differ == 0;
   }
 
@@ -77,6 +90,8 @@ private:
   int reach_;
   int column_ = 0, row_ = 0;                        ///< first cell of the block
   int left_ = 0, right_ = 0, top_ = 0, bottom_ = 0; ///< cells around it, half open
+  FrameVector<int>
+      differ_; ///< by column of the row: not 0 where its cells are not one region
   FrameVector<std::pair<int, int>> found_;
 };
 
@@ -104,7 +119,7 @@ void findCandidates(const TileRegions& regions, const TileLevel& cells, int widt
   };
   const auto addAround = [&](Surroundings& around, int c, int r) {
     const std::size_t block = out.at(c, r);
-    around.look(c, r);
+    around.look(c);
     if (int region = -1; around.isUniform(region)) {
       if (region >= 0)
         add(block, region);
@@ -117,9 +132,11 @@ void findCandidates(const TileRegions& regions, const TileLevel& cells, int widt
   const Bands bands(out.rows);
   parallelParts(bands.count, threads, [&](int band) {
     Surroundings around(regions, cells, reach);
-    for (int r = bands.begin(band); r < bands.begin(band + 1); ++r)
+    for (int r = bands.begin(band); r < bands.begin(band + 1); ++r) {
+      around.lookAtRow(r);
       for (int c = 0; c < out.columns; ++c)
         addAround(around, c, r);
+    }
   });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The noise of each tile: the law of the cloud, raised where the tiles around all show more.
+#include "adaptive/local_noise_kernel.h"
 #include "adaptive/noise_estimation.h"
 #include "adaptive/tile_rms.h"
 #include "frame_memory.h"
@@ -148,16 +149,11 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
   const FrameVector<double> factors =
       localFactors(pyramid[BASE], squares, noise, parameters, threads);
   TileLevel& cells = pyramid[0];
+  static_assert((CELLS_A_FACTOR >> BASE) == 2, "cells of a square, each way");
+  constexpr int CELLS = CELLS_A_FACTOR;
   parallelRows(cells.rows, threads, [&](int r) {
-    for (int c = 0; c < cells.columns; ++c) {
-      TileSums& sums = cells.sums[cells.at(c, r)];
-      if (sums.n < 1)
-        continue;
-      const double range =
-          std::sqrt(sums.x * sums.x + sums.y * sums.y + sums.z * sums.z) / sums.n;
-      const double sigma = noise.small(range) * factors[squares.at(c / 4, r / 4)];
-      sums.noise = sums.n * sigma * sigma;
-    }
+    assignNoise(&cells.sums[cells.at(0, r)], static_cast<std::size_t>(cells.columns),
+                &factors[squares.at(0, r / CELLS)], noise);
   });
   for (std::size_t l = 1; l < pyramid.size(); ++l)
     poolNoise(pyramid[l - 1], pyramid[l], threads);

@@ -185,39 +185,19 @@ double NoiseLaw::growthOf(double n) const
 
 namespace {
 
-using Quarters = std::array<FittedPlane, 4>;
-
-/// The planes of the four tiles that a tile is made of. The smallest tiles have none yet.
-Quarters quartersOf(const TileLevel& below, int column, int row,
-                    const AdaptiveParameters& parameters)
-{
-  Quarters planes;
-  std::array<TileSums, 4> sums;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const std::size_t tile = below.at(2 * column + static_cast<int>(k % 2),
-                                      2 * row + static_cast<int>(k / 2));
-    if (!below.planes.empty())
-      planes[k] = below.planes[tile];
-    else if (isFilled(below, tile, parameters))
-      sums[k] = below.sums[tile];
-    else
-      return planes; // one without plane is enough
-  }
-  if (below.planes.empty())
-    fitPlanes(sums.data(), sums.size(), planes.data());
-  return planes;
-}
+/// The planes of the four tiles that a tile is made of.
+using Quarters = std::array<const FittedPlane*, 4>;
 
 /// Mean variance of tiles that are all within the noise as far as it is known; -1: one is
 /// not.
 double meanVariance(const Quarters& planes, double known_growth, const NoiseLaw& noise)
 {
   double sum = 0;
-  for (const FittedPlane& plane : planes) {
-    if (plane.n <= 3)
+  for (const FittedPlane* plane : planes) {
+    if (plane->n <= 3)
       return -1;
-    const double variance = unbiasedVariance(plane);
-    const double limit = 2 * known_growth * noise.small(plane.centroid.norm()) + 1e-12;
+    const double variance = unbiasedVariance(*plane);
+    const double limit = 2 * known_growth * noise.small(plane->centroid.norm()) + 1e-12;
     if (!(variance < limit * limit))
       return -1;
     sum += variance;
@@ -232,22 +212,86 @@ struct TileRow {
 
 /// One ratio for each tile of a row whose quarters are all within the noise: the rms distance
 /// of the tile over that of its quarters.
-void addGrowthRatios(const TileLevel& level, const TileLevel& below, TileRow row,
-                     double known_growth, const NoiseLaw& noise,
-                     const AdaptiveParameters& parameters, FrameVector<double>& ratios)
-{
-  for (int c = 0; c < level.columns; c += row.step) {
-    const FittedPlane& parent = level.planes[level.at(c, row.number)];
-    if (parent.n < 4 || 2 * row.number + 1 >= below.rows || 2 * c + 1 >= below.columns)
-      continue;
-    const double variance =
-        meanVariance(quartersOf(below, c, row.number, parameters), known_growth, noise);
-    if (variance >= 0)
-      ratios.push_back(
-          unbiasedRms(parent) /
-          std::max(std::sqrt(variance), noise.small(parent.centroid.norm()) / 4));
+class GrowthRatios {
+public:
+  /// \param[in] below the level of the quarters; the smallest tiles have no planes yet
+  GrowthRatios(const TileLevel& level, const TileLevel& below, double known_growth,
+               const NoiseLaw& noise, const AdaptiveParameters& parameters)
+  : level_(level)
+  , below_(below)
+  , known_growth_(known_growth)
+  , noise_(noise)
+  , parameters_(parameters)
+  {}
+
+  void addRow(TileRow row, FrameVector<double>& ratios)
+  {
+    findWhole(row);
+    const bool fitted = !below_.planes.empty();
+    if (!fitted)
+      fitQuarters(row.number);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      Quarters planes;
+      for (std::size_t q = 0; q < planes.size(); ++q)
+        planes[q] = fitted ? &below_.planes[quarter(columns_[k], row.number, q)]
+                           : &planes_[planes.size() * k + q];
+      const double variance = meanVariance(planes, known_growth_, noise_);
+      const FittedPlane& whole = level_.planes[level_.at(columns_[k], row.number)];
+      if (variance >= 0)
+        ratios.push_back(
+            unbiasedRms(whole) /
+            std::max(std::sqrt(variance), noise_.small(whole.centroid.norm()) / 4));
+    }
   }
-}
+
+private:
+  std::size_t quarter(int column, int row, std::size_t number) const
+  {
+    return below_.at(2 * column + static_cast<int>(number % 2),
+                     2 * row + static_cast<int>(number / 2));
+  }
+
+  /// Columns of tiles with a plane and four quarters.
+  void findWhole(TileRow row)
+  {
+    columns_.clear();
+    if (2 * row.number + 1 >= below_.rows)
+      return;
+    for (int c = 0; c < level_.columns && 2 * c + 1 < below_.columns; c += row.step)
+      if (level_.planes[level_.at(c, row.number)].n >= 4)
+        columns_.push_back(c);
+  }
+
+  /// Fits planes to the quarters of tiles, of those that have enough points in each: all at
+  /// once.
+  void fitQuarters(int row)
+  {
+    sums_.clear();
+    const auto addIfFilled = [&](int column) {
+      for (std::size_t q = 0; q < 4; ++q)
+        if (!isFilled(below_, quarter(column, row, q), parameters_))
+          return false;
+      for (std::size_t q = 0; q < 4; ++q)
+        sums_.push_back(below_.sums[quarter(column, row, q)]);
+      return true;
+    };
+    columns_.erase(std::remove_if(columns_.begin(), columns_.end(),
+                                  [&](int column) { return !addIfFilled(column); }),
+                   columns_.end());
+    planes_.resize(std::max(planes_.size(), sums_.size()));
+    fitPlanes(sums_.data(), sums_.size(), planes_.data());
+  }
+
+  const TileLevel& level_;
+  const TileLevel& below_;
+  double known_growth_;
+  const NoiseLaw& noise_;
+  const AdaptiveParameters& parameters_;
+  // of the row at hand
+  FrameVector<int> columns_;
+  FrameVector<TileSums> sums_;
+  FrameVector<FittedPlane> planes_;
+};
 
 /// Growth of the rms distance from tiles' quarters to the tiles.
 FrameVector<double> growthRatios(const TileLevel& level, const TileLevel& below,
@@ -262,9 +306,10 @@ FrameVector<double> growthRatios(const TileLevel& level, const TileLevel& below,
   parallelParts(bands.count, threads, [&](int band) {
     FrameVector<double>& ratios = parts[static_cast<std::size_t>(band)];
     ratios.reserve(level.planes.size() / parts.size());
+    GrowthRatios growth(level, below, known_growth, noise, parameters);
     const int end = std::min(level.rows, step * bands.begin(band + 1));
     for (int r = step * bands.begin(band); r < end; r += step)
-      addGrowthRatios(level, below, {r, step}, known_growth, noise, parameters, ratios);
+      growth.addRow({r, step}, ratios);
   });
   FrameVector<double> ratios;
   ratios.reserve(level.planes.size());

@@ -207,7 +207,7 @@ private:
       });
     for (const int a : regions)
       offered_[static_cast<std::size_t>(a)] = regions_.tiles(a);
-    joint_.resize(pairs_.size());
+    joint_.resize(std::max(joint_.size(), pairs_.size()));
   }
 
   /// The most alike pair as things stand. Those above it that have grown since they were
@@ -249,7 +249,7 @@ private:
   /// Queues the new pairs that may be one plane.
   void consider()
   {
-    joint_.resize(pairs_.size());
+    joint_.resize(std::max(joint_.size(), pairs_.size()));
     price(looked_at_, pairs_.size());
     queueNew();
   }

@@ -15,10 +15,10 @@ namespace {
 class BorderFinder {
 public:
   BorderFinder(const OrganizedPoints& points, const FittedRegions& regions,
-               const std::vector<std::uint16_t>& labels, double sharpest_crease)
+               const LabelledPoints& image, double sharpest_crease)
   : points_(points)
   , regions_(regions)
-  , labels_(labels)
+  , image_(image)
   , sine_(std::sin(sharpest_crease))
   {
     found.open.assign(regions.planes.size(), 0);
@@ -26,23 +26,26 @@ public:
   }
 
   /// Looks across the borders of some rows' runs, half open.
-  void look(const LabelRuns& image, int first_row, int last_row)
+  void look(int first_row, int last_row)
   {
-    const std::size_t width = image.width;
-    const std::size_t last = image.rows[static_cast<std::size_t>(last_row)];
-    for (std::size_t r = image.rows[static_cast<std::size_t>(first_row)]; r < last;
+    const LabelRuns& runs = image_.runs;
+    const std::vector<std::uint16_t>& labels = image_.labels;
+    const std::size_t width = runs.width;
+    const std::size_t last = runs.rows[static_cast<std::size_t>(last_row)];
+    for (std::size_t r = runs.rows[static_cast<std::size_t>(first_row)]; r < last;
          ++r) {
-      const LabelRun& run = image.runs[r];
+      const LabelRun& run = runs.runs[r];
       if (run.label == 0)
         continue;
       const std::size_t row_end = (run.begin / width + 1) * width;
       if (run.end - 1 + REACH < row_end)
         look(run.label, run.end - 1, run.end - 1 + REACH);
-      if (row_end + (REACH - 1) * width >= labels_.size())
+      if (row_end + (REACH - 1) * width >= labels.size())
         continue;
-      const std::uint16_t* below = labels_.data() + width;
+      const std::uint16_t name = labels[run.begin];
+      const std::uint16_t* below = labels.data() + width;
       for (std::size_t i = run.begin;
-           (i = findOther(run.label, below, i, run.end)) < run.end; ++i)
+           (i = findOther(name, below, i, run.end)) < run.end; ++i)
         look(run.label, i, i + REACH * width);
     }
   }
@@ -60,20 +63,21 @@ private:
 
   void look(std::uint16_t label, std::size_t i, std::size_t j)
   {
-    if (label == labels_[j] || points_.valid[j] == 0)
+    const std::uint16_t other = image_.at(j);
+    if (label == other || points_.valid[j] == 0)
       return;
     const double across = distance(label - 1, j);
-    if (labels_[j] == 0) {
+    if (other == 0) {
       ++found.open[label - 1U];
       found.goes_on[label - 1U] += isShallow(across, i, j) ? 1 : 0;
       return;
     }
-    const std::pair<int, int> pair = std::minmax(label - 1, labels_[j] - 1);
+    const std::pair<int, int> pair = std::minmax(label - 1, other - 1);
     if (border_ == nullptr || pair != pair_) { // mostly the same as the last time
       pair_ = pair;
       border_ = &found.between[pair];
     }
-    const double back = distance(labels_[j] - 1, i);
+    const double back = distance(other - 1, i);
     ++border_->length;
     border_->step += std::min(across * across, back * back);
   }
@@ -94,7 +98,7 @@ private:
 
   const OrganizedPoints& points_;
   const FittedRegions& regions_;
-  const std::vector<std::uint16_t>& labels_;
+  const LabelledPoints& image_;
   double sine_;
   std::pair<int, int> pair_ = {-1, -1};
   Border* border_ = nullptr;
@@ -118,9 +122,9 @@ RegionBorders findBorders(const OrganizedPoints& points, const FittedRegions& re
                           unsigned int threads)
 {
   return sumOfBands(points.height, threads,
-                    BorderFinder(points, regions, image.labels, sharpest_crease),
-                    [&](int first, int last, BorderFinder& finder) {
-                      finder.look(image.runs, first, last);
+                    BorderFinder(points, regions, image, sharpest_crease),
+                    [](int first, int last, BorderFinder& finder) {
+                      finder.look(first, last);
                     })
       .found;
 }

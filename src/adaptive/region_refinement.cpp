@@ -7,24 +7,34 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace pcl_mrf_planes::adaptive {
 
 namespace {
 
+/// Calls visit(run) for every run of an image.
+template <typename Visit>
+void forEachRun(LabelRuns& image, unsigned int threads, const Visit& visit)
+{
+  parallelRows(static_cast<int>(image.rows.size()) - 1, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k)
+      visit(image.runs[k]);
+  });
+}
+
 /// Labels of 4-connected parts below the least size become 0.
 void dropSmallParts(int least, LabelledPoints& image, unsigned int threads)
 {
-  LabelRuns& runs = image.runs;
-  const RunRoots roots(runs, threads);
-  parallelRows(static_cast<int>(runs.rows.size()) - 1, threads, [&](int row) {
-    const auto r = static_cast<std::size_t>(row);
-    for (std::size_t k = runs.rows[r]; k < runs.rows[r + 1]; ++k)
-      if (roots.points(k) < least) {
-        fillRun(runs.runs[k], 0, image.labels);
-        runs.runs[k].label = 0;
-      }
+  const RunRoots roots(image.runs, threads);
+  const LabelRun* const first = image.runs.runs.data();
+  forEachRun(image.runs, threads, [&](LabelRun& run) {
+    if (roots.points(static_cast<std::size_t>(&run - first)) < least) {
+      fillRun(run, 0, image.labels);
+      run.label = 0;
+    }
   });
 }
 
@@ -203,18 +213,37 @@ private:
 
 } // namespace
 
+LabelledPoints::LabelledPoints(std::vector<std::uint16_t> of_points, int width,
+                               unsigned int threads)
+: labels(std::move(of_points))
+, runs(findRuns(labels, width, 0, threads))
+{
+  std::uint16_t most = 0;
+  for (const LabelRun& run : runs.runs)
+    most = std::max(most, run.label);
+  number_.resize(most + std::size_t{1});
+  std::iota(number_.begin(), number_.end(), std::uint16_t{0});
+}
+
 void LabelledPoints::renumber(const FrameVector<std::uint16_t>& id,
                               unsigned int threads)
 {
-  parallelRows(static_cast<int>(runs.rows.size()) - 1, threads, [&](int row) {
-    const auto r = static_cast<std::size_t>(row);
-    for (std::size_t k = runs.rows[r]; k < runs.rows[r + 1]; ++k) {
-      LabelRun& run = runs.runs[k];
-      if (id[run.label] != run.label)
-        fillRun(run, id[run.label], labels);
-      run.label = id[run.label];
-    }
+  forEachRun(runs, threads, [&](LabelRun& run) {
+    if (id[run.label] == 0 && run.label != 0)
+      fillRun(run, 0, labels);
+    run.label = id[run.label];
   });
+  for (std::uint16_t& number : number_)
+    number = id[number];
+}
+
+void LabelledPoints::write(unsigned int threads)
+{
+  forEachRun(runs, threads, [&](const LabelRun& run) {
+    if (labels[run.begin] != run.label)
+      fillRun(run, run.label, labels);
+  });
+  std::iota(number_.begin(), number_.end(), std::uint16_t{0});
 }
 
 FittedRegions refineRegions(const OrganizedPoints& points,

@@ -37,7 +37,7 @@ public:
   {
     findFree(level, row);
     if (level.planes.empty()) {
-      planes_.resize(free_.size());
+      planes_.resize(std::max(planes_.size(), free_.size()));
       fitPlanes(sums_.data(), sums_.size(), planes_.data());
     }
     for (std::size_t k = 0; k < free_.size(); ++k) {

@@ -20,37 +20,35 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t COLUMNS = 4; // of a tile
 constexpr std::size_t SUMS = 9;    // of a column, but for the number of points
 
+/// Sums of a few columns of a tile, in the order of ScatterMatrix.
+template <class V>
+struct ColumnSums {
+  V x, y, z, xx, xy, xz, yy, yz, zz;
+};
+
 /// Adds a few columns of a tile, downwards.
-template <class D>
-HWY_INLINE void sumColumns(D d, const TileStrip& strip, std::size_t first,
-                           double* columns)
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE ColumnSums<V> sumColumns(D d, const TileStrip& strip, std::size_t first)
 {
   const hn::Rebind<float, D> f;
-  auto x = hn::Zero(d), y = x, z = x, xx = x, xy = x, xz = x, yy = x, yz = x, zz = x;
+  const V none = hn::Zero(d);
+  ColumnSums<V> s = {none, none, none, none, none, none, none, none, none};
   for (int r = 0; r < strip.rows; ++r) {
     const std::size_t i = static_cast<std::size_t>(r) * strip.width + first;
-    const auto px = hn::PromoteTo(d, hn::LoadU(f, strip.x + i));
-    const auto py = hn::PromoteTo(d, hn::LoadU(f, strip.y + i));
-    const auto pz = hn::PromoteTo(d, hn::LoadU(f, strip.z + i));
-    x = hn::Add(x, px);
-    y = hn::Add(y, py);
-    z = hn::Add(z, pz);
-    xx = hn::Add(xx, hn::Mul(px, px));
-    xy = hn::Add(xy, hn::Mul(px, py));
-    xz = hn::Add(xz, hn::Mul(px, pz));
-    yy = hn::Add(yy, hn::Mul(py, py));
-    yz = hn::Add(yz, hn::Mul(py, pz));
-    zz = hn::Add(zz, hn::Mul(pz, pz));
+    const V x = hn::PromoteTo(d, hn::LoadU(f, strip.x + i));
+    const V y = hn::PromoteTo(d, hn::LoadU(f, strip.y + i));
+    const V z = hn::PromoteTo(d, hn::LoadU(f, strip.z + i));
+    s.x = hn::Add(s.x, x);
+    s.y = hn::Add(s.y, y);
+    s.z = hn::Add(s.z, z);
+    s.xx = hn::Add(s.xx, hn::Mul(x, x));
+    s.xy = hn::Add(s.xy, hn::Mul(x, y));
+    s.xz = hn::Add(s.xz, hn::Mul(x, z));
+    s.yy = hn::Add(s.yy, hn::Mul(y, y));
+    s.yz = hn::Add(s.yz, hn::Mul(y, z));
+    s.zz = hn::Add(s.zz, hn::Mul(z, z));
   }
-  hn::StoreU(x, d, columns);
-  hn::StoreU(y, d, columns + COLUMNS);
-  hn::StoreU(z, d, columns + 2 * COLUMNS);
-  hn::StoreU(xx, d, columns + 3 * COLUMNS);
-  hn::StoreU(xy, d, columns + 4 * COLUMNS);
-  hn::StoreU(xz, d, columns + 5 * COLUMNS);
-  hn::StoreU(yy, d, columns + 6 * COLUMNS);
-  hn::StoreU(yz, d, columns + 7 * COLUMNS);
-  hn::StoreU(zz, d, columns + 8 * COLUMNS);
+  return s;
 }
 
 /// Valid points of a tile: the ones of four bytes are added up in one word.
@@ -66,28 +64,60 @@ HWY_INLINE double countPoints(const TileStrip& strip, std::size_t first)
   return static_cast<double>((ones * 0x01010101U) >> 24U);
 }
 
-void SumTiles(const TileStrip& strip, std::size_t tiles, TileSums* sums)
+#if HWY_HAVE_SCALABLE || HWY_MAX_BYTES < 32
+/// Adds a tile up, over its columns.
+HWY_INLINE void sumTile(const TileStrip& strip, std::size_t first, double* sums)
 {
   const hn::CappedTag<double, COLUMNS> d;
-  double columns[SUMS * COLUMNS];
+  double columns[SUMS][COLUMNS];
+  for (std::size_t k = 0; k < COLUMNS; k += hn::Lanes(d)) {
+    const auto s = sumColumns(d, strip, first + k);
+    std::size_t number = 0;
+    for (const auto& v : {s.x, s.y, s.z, s.xx, s.xy, s.xz, s.yy, s.yz, s.zz})
+      hn::StoreU(v, d, columns[number++] + k);
+  }
+  for (std::size_t k = 0; k < SUMS; ++k)
+    sums[k] = (columns[k][0] + columns[k][1]) + (columns[k][2] + columns[k][3]);
+}
+#else
+using Columns = hn::FixedTag<double, COLUMNS>;
+using FourSums = hn::Vec<Columns>;
+
+/// The sums over the columns of two numbers, still in two parts: 1st + 2nd, 3rd + 4th.
+HWY_INLINE FourSums addPairs(FourSums a, FourSums b)
+{
+  const Columns d;
+  return hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+}
+
+/// The sums over the columns of four numbers, of which pairs are in two parts.
+HWY_INLINE FourSums addHalves(FourSums first, FourSums second)
+{
+  const Columns d;
+  return hn::Add(hn::ConcatLowerLower(d, second, first),
+                 hn::ConcatUpperUpper(d, second, first));
+}
+
+/// Adds a tile up, over its columns, all of which are one vector.
+HWY_INLINE void sumTile(const TileStrip& strip, std::size_t first, double* sums)
+{
+  const Columns d;
+  const ColumnSums<FourSums> s = sumColumns(d, strip, first);
+  hn::StoreU(addHalves(addPairs(s.x, s.y), addPairs(s.z, s.xx)), d, sums);
+  hn::StoreU(addHalves(addPairs(s.xy, s.xz), addPairs(s.yy, s.yz)), d, sums + 4);
+  const FourSums zz = addPairs(s.zz, s.zz);
+  sums[8] = hn::GetLane(addHalves(zz, zz));
+}
+#endif
+
+void SumTiles(const TileStrip& strip, std::size_t tiles, TileSums* sums)
+{
+  static_assert(sizeof(ScatterMatrix) == (1 + SUMS) * sizeof(double),
+                "the number of points and the sums in a row");
   for (std::size_t t = 0; t < tiles; ++t) {
-    for (std::size_t k = 0; k < COLUMNS; k += hn::Lanes(d))
-      sumColumns(d, strip, COLUMNS * t + k, columns + k);
-    const auto total = [&](std::size_t s) {
-      const double* c = columns + s * COLUMNS;
-      return (c[0] + c[1]) + (c[2] + c[3]);
-    };
     TileSums& sum = sums[t];
+    sumTile(strip, COLUMNS * t, &sum.n + 1);
     sum.n = countPoints(strip, COLUMNS * t);
-    sum.x = total(0);
-    sum.y = total(1);
-    sum.z = total(2);
-    sum.xx = total(3);
-    sum.xy = total(4);
-    sum.xz = total(5);
-    sum.yy = total(6);
-    sum.yz = total(7);
-    sum.zz = total(8);
     sum.noise = 0;
   }
 }
