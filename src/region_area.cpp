@@ -84,33 +84,32 @@ private:
     });
   }
 
+  /// Down the right side of a strip and up the left one: around the triangle beside it where
+  /// one of the runs goes on and the other ends.
   void addStrip(const Strip& strip)
   {
     const std::size_t width = image_.width;
     const LabelRun& upper = *strip.upper;
     const LabelRun& lower = *strip.lower;
-    // Down the right side, up the left one.
-    double& sum = twice_areas[strip.label];
-    const std::size_t last = strip.end - 1;
-    sum += edge(last, last + width, strip.label) +
-           edge(strip.begin + width, strip.begin, strip.label);
-    // Triangles beside the strip, where one of the runs goes on and the other ends.
+    const std::size_t right = strip.end - 1;
     if (upper.end > strip.end)
-      sum += triangle(last, last + 1, last + width, strip.label);
-    if (lower.end - width > strip.end)
-      sum += triangle(last, last + width + 1, last + width, strip.label);
+      addWay(right, right + 1, right + width, strip.label);
+    else if (lower.end - width > strip.end)
+      addWay(right, right + width + 1, right + width, strip.label);
+    else
+      twice_areas[strip.label] += edge(right, right + width, strip.label);
+    const std::size_t left = strip.begin;
     if (upper.begin < strip.begin)
-      sum += triangle(strip.begin - 1, strip.begin, strip.begin + width, strip.label);
-    if (lower.begin - width < strip.begin)
-      sum += triangle(strip.begin, strip.begin + width, strip.begin + width - 1,
-                      strip.label);
+      addWay(left + width, left - 1, left, strip.label);
+    else if (lower.begin - width < strip.begin)
+      addWay(left + width, left + width - 1, left, strip.label);
+    else
+      twice_areas[strip.label] += edge(left + width, left, strip.label);
   }
 
-  /// Corners clockwise in the image.
-  double triangle(std::size_t a, std::size_t b, std::size_t c,
-                  std::uint16_t label) const
+  void addWay(std::size_t from, std::size_t over, std::size_t to, std::uint16_t label)
   {
-    return edge(a, b, label) + edge(b, c, label) + edge(c, a, label);
+    twice_areas[label] += edge(from, over, label) + edge(over, to, label);
   }
 
   /// Edges along a row: those with a face below but none above, from left to right, and

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/block_costs.h"
+#include "adaptive/lanes.h"
 #include "frame_memory.h"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ void BlockCosts::fill(const BlockPlace& place, const std::uint16_t* labels,
       row_ = {};
     if (r % CELL == 0 && r < place.rows)
       lookUpNoise(place, place.row + r, labels, count);
-    valid_[row] = gather(row_.valid);
+    valid_[row] = maskOf(loadBytes(row_.valid));
     costs_[row][0] = none & valid_[row];
     for (std::size_t s = 1; s < count; ++s)
       costs_[row][s] = costs(scales_[labels[s] - 1U], per_sigma_[s]) & valid_[row];
@@ -71,8 +72,7 @@ inline void BlockCosts::copyPoints(std::size_t i, std::size_t count)
   std::memcpy(row_.x, &points_.x[i], count * sizeof(float));
   std::memcpy(row_.y, &points_.y[i], count * sizeof(float));
   std::memcpy(row_.z, &points_.z[i], count * sizeof(float));
-  for (std::size_t k = 0; k < count; ++k)
-    row_.valid[k] = static_cast<std::int16_t>(-points_.valid[i + k]);
+  std::memcpy(row_.valid, &points_.valid[i], count);
 }
 
 inline void BlockCosts::loadRow(std::size_t i, int count)
@@ -111,14 +111,14 @@ BlockCosts::costs(const LabelScale& plane,
   const float a = plane.a, b = plane.b, c = plane.c, d = plane.d;
   const float most = MOST * static_cast<float>(parameters_.none_cost);
   const float scale = units_.per_sigma;
-  std::int16_t cost[SIDE];
-  for (std::size_t k = 0; k < SIDE; ++k) {
-    const float distance = std::abs(a * p.x[k] + b * p.y[k] + c * p.z[k] + d);
-    const float sigmas = distance * per_sigma[k];
-    cost[k] =
-        static_cast<std::int16_t>(nearest((sigmas < most ? sigmas : most) * scale));
-  }
-  return gather(cost);
+  const auto four = [&](int k) {
+    const Floats distance =
+        a * loadFour(p.x + k) + b * loadFour(p.y + k) + c * loadFour(p.z + k) + d;
+    const Floats sigmas =
+        (distance < 0.0f ? -distance : distance) * loadFour(&per_sigma[0] + k);
+    return nearest((sigmas < most ? sigmas : most) * scale);
+  };
+  return join(four(0), four(LANES));
 }
 
 // Some other label is better by more than four changes cost (dead-end elimination).

@@ -47,7 +47,7 @@ private:
   /// A row of eight points; those outside the image are not valid.
   struct PointRow {
     float x[SIDE], y[SIDE], z[SIDE];
-    std::int16_t valid[SIDE]; ///< all bits set, or none
+    std::uint8_t valid[SIDE]; ///< 1 or 0
   };
 
   void loadRow(std::size_t i, int count);

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace pcl_mrf_planes::adaptive {
 
@@ -24,22 +23,6 @@ struct BlockPlace {
            static_cast<std::size_t>(column);
   }
 };
-
-/// Eight numbers of an array, as one.
-inline BlockRow::Numbers gather(const std::int16_t* numbers)
-{
-  BlockRow::Numbers v;
-  std::memcpy(&v, numbers, sizeof(v));
-  return v;
-}
-
-/// The nearest whole number to one that is not negative: the compiler does several at once,
-/// as it cannot with the functions of the library.
-inline std::int32_t nearest(float number)
-{
-  constexpr float HALF = 0.5f;
-  return static_cast<std::int32_t>(number + HALF);
-}
 
 /// Costs in the whole numbers of a field.
 struct CostUnits {

@@ -60,19 +60,30 @@ public:
   const FrameVector<std::pair<int, int>>& regions()
   {
     found_.clear();
-    for (int r = top_; r < bottom_; ++r)
-      for (int c = left_; c < right_; ++c)
-        if (const int id = regions_.cell_region[cells_.at(c, r)]; id >= 0)
-          note(id, std::max(distance(c - column_), distance(r - row_)));
+    for (int r = top_; r < bottom_; ++r) {
+      const int* const region = &regions_.cell_region[cells_.at(0, r)];
+      const int rows = distance({r, r + 1}, row_);
+      for (int first = left_, end = left_; first < right_; first = end) {
+        while (++end < right_ && region[end] == region[first])
+          ;
+        if (region[first] >= 0)
+          note(region[first], std::max(rows, distance({first, end}, column_)));
+      }
+    }
     std::sort(found_.begin(), found_.end());
     return found_;
   }
 
 private:
-  /// From the cells of the block along one way, given the place past the first of them.
-  static int distance(int past_first)
+  /// Neighbouring cells of a row or a column, half open.
+  struct Stretch {
+    int begin, end;
+  };
+
+  /// From the cells of the block along one way, the first of which is given.
+  static int distance(Stretch cells, int block)
   {
-    return std::max(-past_first, past_first - (CELLS - 1));
+    return std::max({0, block - (cells.end - 1), cells.begin - (block + CELLS - 1)});
   }
 
   void note(int id, int distance)

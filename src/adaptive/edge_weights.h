@@ -15,9 +15,10 @@ inline float perStep(const NoiseLaw& noise, const AdaptiveParameters& parameters
 }
 
 /// Share of the price of a change that is left across a step of so many of those.
-inline float priceShare(float step, float least)
+template <typename Number>
+inline Number priceShare(Number step, float least)
 {
-  const float falling = 1.0f / (1.0f + step * step);
+  const Number falling = 1.0f / (1.0f + step * step);
   return falling > least ? falling : least;
 }
 
@@ -34,10 +35,15 @@ public:
   void fill(const BlockPlace& place, double range, BlockWeights& out);
 
 private:
-  std::int16_t edge(std::size_t i, std::size_t j) const;
+  /// Eight neighbouring points.
+  struct PointRow {
+    const float* depth;
+    const std::uint8_t* valid;
+  };
+
   BlockRow edges(std::size_t i, std::size_t j, int count) const;
-  void fillEdges(std::size_t i, std::size_t j, std::size_t count,
-                 std::int16_t* weight) const;
+  BlockRow edgesToTheLeft(const BlockPlace& place) const;
+  BlockRow::Numbers weights(const PointRow& from, const PointRow& to) const;
 
   const OrganizedPoints& points_;
   const NoiseLaw& noise_;

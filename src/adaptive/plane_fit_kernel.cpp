@@ -208,7 +208,7 @@ HWY_INLINE void FitAll(D d, const TileSums* sums, std::size_t count,
                        FittedPlane* planes)
 {
   const std::size_t lanes = hn::Lanes(d);
-  Table<D, NUMBERS> in = {};
+  Table<D, NUMBERS> in;
   Table<D, RESULTS> out;
   for (std::size_t i = 0; i < count; i += lanes) {
     const std::size_t used = count - i < lanes ? count - i : lanes;
@@ -217,6 +217,8 @@ HWY_INLINE void FitAll(D d, const TileSums* sums, std::size_t count,
       FillLane(sums[i + lane], lane, in);
       any |= sums[i + lane].n >= 3;
     }
+    for (std::size_t lane = used; lane < lanes; ++lane) // any numbers will do
+      FillLane(sums[i], lane, in);
     if (any)
       FitTable(d, in, out);
     for (std::size_t lane = 0; lane < used; ++lane)
@@ -226,8 +228,11 @@ HWY_INLINE void FitAll(D d, const TileSums* sums, std::size_t count,
 
 void FitPlanes(const TileSums* sums, std::size_t count, FittedPlane* planes)
 {
-  if (count == 1) // the fewer the lanes, the sooner a division is done
+  // The fewer the lanes, the sooner a division is done.
+  if (count == 1)
     FitAll(hn::CappedTag<double, 1>(), sums, count, planes);
+  else if (count <= 4)
+    FitAll(hn::CappedTag<double, 4>(), sums, count, planes);
   else
     FitAll(hn::CappedTag<double, 8>(), sums, count, planes);
 }

@@ -7,8 +7,9 @@
 #include "frame_memory.h"
 #include "threads.h"
 
+#include <boost/container/static_vector.hpp>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -259,11 +260,11 @@ private:
   /// Fits the planes of pairs, at most AT_ONCE, and tells what it costs to merge them.
   void price(std::size_t first, std::size_t last)
   {
-    std::array<TileSums, AT_ONCE> sums;
+    boost::container::static_vector<TileSums, AT_ONCE> sums;
     for (std::size_t k = first; k < last; ++k)
-      sums[k - first] = regions_.sums(pairs_[k].a) + regions_.sums(pairs_[k].b);
+      sums.push_back(regions_.sums(pairs_[k].a) + regions_.sums(pairs_[k].b));
     if (first < last)
-      fitPlanes(sums.data(), last - first, &joint_[first]);
+      fitPlanes(sums.data(), sums.size(), &joint_[first]);
     for (std::size_t k = first; k < last; ++k) {
       Pair& pair = pairs_[k];
       pair.cost = static_cast<float>(dissimilarity(regions_.plane(pair.a),

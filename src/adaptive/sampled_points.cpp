@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adaptive/sampled_points.h"
+#include "adaptive/lanes.h"
 #include "frame_memory.h"
 #include "threads.h"
 
@@ -11,11 +12,6 @@
 namespace pcl_mrf_planes::adaptive {
 
 namespace {
-
-/// Numbers of four neighbours of a row.
-using Floats __attribute__((vector_size(16))) = float;
-using Words __attribute__((vector_size(16))) = std::int32_t;
-constexpr int LANES = 4;
 
 /// A plane in the precision of the points, and what a metre from it costs.
 struct NearPlane {
@@ -204,12 +200,11 @@ private:
   /// Four numbers from the i-th on, or as many as there are.
   static Floats load(const std::vector<float>& from, std::size_t i)
   {
-    Floats four = {};
     if (i + LANES <= from.size())
-      std::memcpy(&four, &from[i], sizeof(four));
-    else
-      std::memcpy(&four, &from[i], (from.size() - i) * sizeof(float));
-    return four;
+      return loadFour(&from[i]);
+    Floats last = {};
+    std::memcpy(&last, &from[i], (from.size() - i) * sizeof(float));
+    return last;
   }
 
   std::vector<std::uint16_t>& out_;
