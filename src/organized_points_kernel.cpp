@@ -80,10 +80,10 @@ HWY_INLINE hn::Mask<Floats> isNear(FloatVector numbers)
 HWY_INLINE void storeBytes(hn::Mask<Floats> mask, std::uint8_t* out)
 {
   // Of four points, by the bits of a mask.
-  constexpr std::uint32_t BYTES[16] = {0x00000000, 0x00000001, 0x00000100, 0x00000101,
-                                       0x00010000, 0x00010001, 0x00010100, 0x00010101,
-                                       0x01000000, 0x01000001, 0x01000100, 0x01000101,
-                                       0x01010000, 0x01010001, 0x01010100, 0x01010101};
+  static constexpr std::uint32_t BYTES[16] = {
+      0x00000000, 0x00000001, 0x00000100, 0x00000101, 0x00010000, 0x00010001,
+      0x00010100, 0x00010101, 0x01000000, 0x01000001, 0x01000100, 0x01000101,
+      0x01010000, 0x01010001, 0x01010100, 0x01010101};
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(Floats(), mask, bits);
   for (std::size_t k = 0; k < AT_ONCE; k += 4)
@@ -99,6 +99,7 @@ std::size_t LoadPoints(const float* first, std::size_t stride, std::size_t count
   constexpr std::size_t AHEAD = 512;
   constexpr std::size_t LINE = 16; // of the cache, numbers
   const std::size_t lines = (AT_ONCE * stride + LINE - 1) / LINE;
+  const PointPlanes to = out; // that the bytes written are not part of, as all can see
   std::size_t i = 0;
   for (; i + AT_ONCE < count; i += AT_ONCE) {
     const float* p = first + i * stride;
@@ -116,10 +117,10 @@ std::size_t LoadPoints(const float* first, std::size_t stride, std::size_t count
     const FloatVector z =
         firstPairs(hn::InterleaveUpper(d, p0, p1), hn::InterleaveUpper(d, p2, p3));
     const auto good = hn::And(hn::And(isNear(x), isNear(y)), isNear(z));
-    hn::StoreU(hn::IfThenElseZero(good, x), d, out.x + i);
-    hn::StoreU(hn::IfThenElseZero(good, y), d, out.y + i);
-    hn::StoreU(hn::IfThenElseZero(good, z), d, out.z + i);
-    storeBytes(good, out.valid + i);
+    hn::StoreU(hn::IfThenElseZero(good, x), d, to.x + i);
+    hn::StoreU(hn::IfThenElseZero(good, y), d, to.y + i);
+    hn::StoreU(hn::IfThenElseZero(good, z), d, to.z + i);
+    storeBytes(good, to.valid + i);
   }
   return i;
 }

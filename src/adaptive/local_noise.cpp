@@ -119,21 +119,19 @@ FrameVector<double> localFactors(const TileLevel& level, const TileLevel& square
   return factors;
 }
 
-/// Pools the noise of the level below, and tells it to the planes.
-void poolNoise(const TileLevel& below, TileLevel& level, unsigned int threads)
+/// Pools the noise of the level below for a row of tiles, and tells it to the planes.
+void poolNoise(const TileLevel& below, TileLevel& level, int row)
 {
-  parallelRows(level.rows, threads, [&](int r) {
-    for (int c = 0; c < level.columns; ++c) {
-      TileSums& sums = level.sums[level.at(c, r)];
-      if (sums.n < 1)
-        continue;
-      sums.noise = 0;
-      for (int j = 2 * r; j < std::min(2 * r + 2, below.rows); ++j)
-        for (int k = 2 * c; k < std::min(2 * c + 2, below.columns); ++k)
-          sums.noise += below.sums[below.at(k, j)].noise;
-      level.planes[level.at(c, r)].noise = sums.noise / sums.n;
-    }
-  });
+  for (int c = 0; c < level.columns; ++c) {
+    TileSums& sums = level.sums[level.at(c, row)];
+    if (sums.n < 1)
+      continue;
+    sums.noise = 0;
+    for (int j = 2 * row; j < std::min(2 * row + 2, below.rows); ++j)
+      for (int k = 2 * c; k < std::min(2 * c + 2, below.columns); ++k)
+        sums.noise += below.sums[below.at(k, j)].noise;
+    level.planes[level.at(c, row)].noise = sums.noise / sums.n;
+  }
 }
 
 } // namespace
@@ -151,12 +149,17 @@ void assignLocalNoise(std::vector<TileLevel>& pyramid, const NoiseLaw& noise,
   TileLevel& cells = pyramid[0];
   static_assert((CELLS_A_FACTOR >> BASE) == 2, "cells of a square, each way");
   constexpr int CELLS = CELLS_A_FACTOR;
-  parallelRows(cells.rows, threads, [&](int r) {
-    assignNoise(&cells.sums[cells.at(0, r)], static_cast<std::size_t>(cells.columns),
-                &factors[squares.at(0, r / CELLS)], noise);
+  // Two rows of cells are still near when the row of tiles that they make up asks for them.
+  TileLevel& pairs = pyramid[1];
+  parallelRows(pairs.rows, threads, [&](int row) {
+    for (int r = 2 * row; r < std::min(2 * row + 2, cells.rows); ++r)
+      assignNoise(&cells.sums[cells.at(0, r)], static_cast<std::size_t>(cells.columns),
+                  &factors[squares.at(0, r / CELLS)], noise);
+    poolNoise(cells, pairs, row);
   });
-  for (std::size_t l = 1; l < pyramid.size(); ++l)
-    poolNoise(pyramid[l - 1], pyramid[l], threads);
+  for (std::size_t l = 2; l < pyramid.size(); ++l)
+    parallelRows(pyramid[l].rows, threads,
+                 [&](int row) { poolNoise(pyramid[l - 1], pyramid[l], row); });
 }
 
 } // namespace pcl_mrf_planes::adaptive
