@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 #include <new>
 
 namespace pcl_mrf_planes {
@@ -50,7 +51,7 @@ void* FrameMemory::take(std::size_t bytes)
 {
   const BlockSize size(bytes);
   if (!WATCHED) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<oneapi::tbb::spin_mutex> lock(mutex_);
     if (Spare* block = spare_[size.number]) {
       spare_[size.number] = block->next;
       return block;
@@ -66,7 +67,7 @@ void FrameMemory::give(void* block, std::size_t bytes) noexcept
     return;
   }
   const BlockSize size(bytes);
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<oneapi::tbb::spin_mutex> lock(mutex_);
   spare_[size.number] = new (block) Spare{spare_[size.number]};
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <oneapi/tbb/spin_mutex.h>
+
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <type_traits>
 #include <vector>
 
@@ -50,7 +51,8 @@ private:
   };
   static constexpr std::size_t SIZES = 236; ///< from 64 bytes to all that there are
 
-  std::mutex mutex_;
+  oneapi::tbb::spin_mutex
+      mutex_; ///< held for a few instructions: to sleep takes longer
   std::array<Spare*, SIZES> spare_ = {};
 };
 

@@ -50,18 +50,21 @@ struct TileCount {
 /// Counts the tiles of any window: from sums over all that lie above and to the left.
 class TileCounts {
 public:
-  TileCounts(const TileLevel& level, const FrameVector<double>& ratios)
+  TileCounts(const TileLevel& level, const FrameVector<double>& ratios,
+             unsigned int threads)
   : stride_(static_cast<std::size_t>(level.columns) + 1)
   , sums_(stride_ * (static_cast<std::size_t>(level.rows) + 1))
   {
-    for (int r = 0; r < level.rows; ++r) {
+    parallelRows(level.rows, threads, [&](int r) {
       TileCount row;
       for (int c = 0; c < level.columns; ++c) {
         const double ratio = ratios[level.at(c, r)];
         row = row + TileCount{ratio > 0 ? 1 : 0, ratio > 0 && ratio <= 1 ? 1 : 0};
-        sums_[at(c + 1, r + 1)] = sums_[at(c + 1, r)] + row;
+        sums_[at(c + 1, r + 1)] = row;
       }
-    }
+    });
+    for (std::size_t k = stride_; k < sums_.size(); ++k)
+      sums_[k] = sums_[k - stride_] + sums_[k];
   }
 
   TileCount in(const TileWindow& window) const
@@ -91,7 +94,7 @@ FrameVector<double> localFactors(const TileLevel& level, const TileLevel& square
   constexpr int FEWEST = 4; // tiles for a percentile
   const int reach = parameters.local_reach;
   const FrameVector<double> ratios = noiseRatios(level, noise, threads);
-  const TileCounts counts(level, ratios);
+  const TileCounts counts(level, ratios, threads);
   FrameVector<double> factors(squares.at(0, squares.rows), 1.0);
   const auto findRow = [&](int r, FrameVector<double>& around) {
     for (int c = 0; c < squares.columns; ++c) {

@@ -62,6 +62,13 @@ void fitTiles(TileRows rows, const AdaptiveParameters& parameters, TileLevel& le
       level.planes[i] = FittedPlane();
 }
 
+void makeTiles(const TileLevel& below, TileRows rows,
+               const AdaptiveParameters& parameters, TileLevel& level)
+{
+  poolTiles(below, rows, level);
+  fitTiles(rows, parameters, level);
+}
+
 } // namespace
 
 bool isFilled(const TileLevel& level, std::size_t tile,
@@ -93,18 +100,23 @@ void buildTilePyramid(const OrganizedPoints& points,
     if (l > 0)
       level.planes.resize(level.sums.size());
   }
-  // A row of the largest tiles with all that it is made of stays in the nearest caches.
-  parallelParts(pyramid.back().rows, threads, [&](int row) {
-    for (std::size_t l = 0; l < pyramid.size(); ++l) {
-      const TileRows part = rowsInside(pyramid[l], pyramid.back(), {row, row + 1});
-      if (l == 0) {
+  // A row of large tiles with all that it is made of stays in the nearest caches. Of the
+  // largest ones there may be too few rows to be shared evenly.
+  const std::size_t top = pyramid.size() - 1;
+  const std::size_t shared = std::max<std::size_t>(top, 1) - 1;
+  parallelParts(pyramid[shared].rows, threads, [&](int row) {
+    for (std::size_t l = 0; l <= shared; ++l) {
+      const TileRows part = rowsInside(pyramid[l], pyramid[shared], {row, row + 1});
+      if (l == 0)
         sumCells(points, part, pyramid[l]);
-        continue;
-      }
-      poolTiles(pyramid[l - 1], part, pyramid[l]);
-      fitTiles(part, parameters, pyramid[l]);
+      else
+        makeTiles(pyramid[l - 1], part, parameters, pyramid[l]);
     }
   });
+  if (top > shared)
+    parallelParts(pyramid[top].rows, threads, [&](int row) {
+      makeTiles(pyramid[top - 1], {row, row + 1}, parameters, pyramid[top]);
+    });
 }
 
 } // namespace pcl_mrf_planes::adaptive
