@@ -39,12 +39,9 @@ struct BlockSize {
 
 FrameMemory::~FrameMemory()
 {
-  for (Spare* block : spare_)
-    while (block != nullptr) {
-      Spare* next = block->next;
+  for (const std::vector<void*>& blocks : spare_)
+    for (void* block : blocks)
       ::operator delete(block, CACHE_LINE);
-      block = next;
-    }
 }
 
 void* FrameMemory::take(std::size_t bytes)
@@ -52,8 +49,9 @@ void* FrameMemory::take(std::size_t bytes)
   const BlockSize size(bytes);
   if (!WATCHED) {
     const std::lock_guard<oneapi::tbb::spin_mutex> lock(mutex_);
-    if (Spare* block = spare_[size.number]) {
-      spare_[size.number] = block->next;
+    if (std::vector<void*>& spare = spare_[size.number]; !spare.empty()) {
+      void* block = spare.back();
+      spare.pop_back();
       return block;
     }
   }
@@ -62,13 +60,17 @@ void* FrameMemory::take(std::size_t bytes)
 
 void FrameMemory::give(void* block, std::size_t bytes) noexcept
 {
-  if (WATCHED) {
-    ::operator delete(block, CACHE_LINE);
-    return;
+  if (!WATCHED) {
+    const BlockSize size(bytes);
+    const std::lock_guard<oneapi::tbb::spin_mutex> lock(mutex_);
+    try {
+      spare_[size.number].push_back(block);
+      return;
+    }
+    catch (const std::bad_alloc&) { // no memory to remember it by
+    }
   }
-  const BlockSize size(bytes);
-  const std::lock_guard<oneapi::tbb::spin_mutex> lock(mutex_);
-  spare_[size.number] = new (block) Spare{spare_[size.number]};
+  ::operator delete(block, CACHE_LINE);
 }
 
 bool FrameMemory::keeps() noexcept

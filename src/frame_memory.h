@@ -45,15 +45,13 @@ public:
 private:
   friend class FrameMemoryScope;
 
-  /// What a block that nobody uses holds.
-  struct Spare {
-    Spare* next;
-  };
   static constexpr std::size_t SIZES = 236; ///< from 64 bytes to all that there are
 
   oneapi::tbb::spin_mutex
       mutex_; ///< held for a few instructions: to sleep takes longer
-  std::array<Spare*, SIZES> spare_ = {};
+  /// Blocks that nobody uses, the last one given back at the end. What they hold is not looked
+  /// at: it may be far from the caches by now.
+  std::array<std::vector<void*>, SIZES> spare_;
 };
 
 /// Puts up a memory, or none, for the thread that makes the scope and as long as it lasts.

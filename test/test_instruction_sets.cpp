@@ -3,6 +3,7 @@
 // The kernels run on whatever instruction set the machine has; all must give the same.
 #include "reference/inputs.h"
 
+#include "adaptive/local_noise_kernel.h"
 #include "field_kernel.h"
 #include "label_runs_kernel.h"
 
@@ -159,6 +160,48 @@ TEST(InstructionSetTest, PointsAreReadTheSame)
     EXPECT_EQ(points.z, expected.z) << name;
     EXPECT_EQ(points.valid, expected.valid) << name;
   });
+}
+
+TEST(InstructionSetTest, TheNoiseOfCellsIsThatOfTheLawTimesTheFactor)
+{
+  using namespace adaptive;
+  constexpr double UNTOUCHED = 4711;
+  scenes::Random random(8);
+  NoiseLaw law;
+  law.a = 0.001;
+  law.b = 0.0003;
+  law.c = 0.002;
+  law.floor = 0.0008;
+  for (std::size_t count = 1; count < 14; ++count) {
+    std::vector<TileSums> cells(count + 1);
+    for (TileSums& cell : cells) {
+      const int points = random.chance(0.2) ? 0 : random.integer(1, 16);
+      for (int k = 0; k < points; ++k)
+        cell.add(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 5));
+      cell.noise = UNTOUCHED;
+    }
+    std::vector<double> factors((count + CELLS_A_FACTOR - 1) / CELLS_A_FACTOR);
+    for (double& factor : factors)
+      factor = random.uniform(1, 3);
+    forEachInstructionSet([&](const char* name) {
+      std::vector<TileSums> assigned = cells;
+      assignNoise(assigned.data(), count, factors.data(), law);
+      for (std::size_t k = 0; k < count; ++k) {
+        const TileSums& cell = cells[k];
+        double expected = 0;
+        if (cell.n >= 1) {
+          const double range =
+              std::sqrt(cell.x * cell.x + cell.y * cell.y + cell.z * cell.z) / cell.n;
+          const double sigma = law.small(range) * factors[k / CELLS_A_FACTOR];
+          expected = cell.n * sigma * sigma;
+        }
+        EXPECT_EQ(assigned[k].noise, expected)
+            << "cell " << k << " of " << count << " on " << name;
+      }
+      EXPECT_EQ(assigned[count].noise, UNTOUCHED)
+          << "wrote beyond " << count << " cells on " << name;
+    });
+  }
 }
 
 TEST(InstructionSetTest, TheWholeSegmentationGivesTheSameBits)

@@ -228,6 +228,39 @@ TEST(RegionStagesTest, SmallPartsLoseTheirLabelAndLargeOnesKeepIt)
   EXPECT_GT(dropped, 0U) << "the test needs small parts";
 }
 
+TEST(RegionStagesTest, NewNumbersOfLabelsAreThoseOfAllTheirPoints)
+{
+  constexpr int WIDTH = 33;
+  constexpr int LABELS = 9;
+  scenes::Random random(12);
+  for (int run = 0; run < 20; ++run) {
+    std::vector<std::uint16_t> labels(WIDTH * std::size_t{17});
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      labels[i] = i > 0 && random.chance(0.8)
+                      ? labels[i - 1]
+                      : static_cast<std::uint16_t>(random.integer(0, LABELS));
+    LabelledPoints image(labels, WIDTH);
+    for (int times = 0; times < 3; ++times) {
+      // As planes are dropped: those that stay move up.
+      FrameVector<std::uint16_t> id(LABELS + 1, 0);
+      std::uint16_t kept = 0;
+      for (std::size_t label = 1; label < id.size(); ++label)
+        id[label] = random.chance(0.7) ? ++kept : std::uint16_t{0};
+      image.renumber(id);
+      for (std::uint16_t& label : labels)
+        label = id[label];
+      for (std::size_t i = 0; i < labels.size(); ++i)
+        ASSERT_EQ(image.at(i), labels[i]) << "point " << i << ", run " << run;
+      for (const LabelRun& piece : image.runs.runs)
+        for (std::size_t i = piece.begin; i < piece.end; ++i)
+          ASSERT_EQ(piece.label, labels[i]) << "run of point " << i;
+    }
+    image.write();
+    EXPECT_EQ(image.labels, labels);
+    EXPECT_EQ(image.at(0), labels[0]) << "the numbers are the names now";
+  }
+}
+
 /// What is left of a wall with one label, some of whose points are half a metre in front.
 FittedRegions refinedWall(int in_front)
 {
