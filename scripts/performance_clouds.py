@@ -11,6 +11,7 @@ from performance_tables import PROFILES, fine
 TOTALS = ('whole', 'processor')
 GOALS = {'FAST': 1.6, 'DEFAULT': 5.0}  # milliseconds
 LABEL_GOALS = {10: 10.0, 40: 20.0}  # the same, of PAPER by the number of labels
+THREAD_GOALS = {'DEFAULT': '1.7', '10': '1.7'}  # times as fast; a number: PAPER's labels
 STAGE_COLOURS = plt.get_cmap('tab20').colors
 
 
@@ -121,6 +122,29 @@ def labels_block(rows):
         markdown_table(['labels', 'goal', 'clouds', 'median ms', 'least', 'most'], lines),
         '', f'On the same cloud {many} labels take {statistics.median(ratios):.1f} times as '
         f'long as {few}, median.'])
+
+
+# --- block: cloud threads -------------------------------------------------------------
+
+
+def threads_block(rows):
+    """How many times as fast two threads are on clouds where there is something to label; a
+    number stands for PAPER with so many labels."""
+    lines = []
+    for profile, of_profile in group(rows, 'profile').items():
+        clouds = [{row['threads']: row.number('milliseconds') for row in runs}
+                  for runs in group(of_profile, 'set', 'frame').values()
+                  if runs[0].number('planes')]
+        if not clouds:
+            continue
+        ratios = [times['1'] / times['2'] for times in clouds]
+        lines.append(
+            [f'PAPER, {profile} labels' if profile.isdigit() else profile,
+             THREAD_GOALS.get(profile, ''), str(len(clouds))] +
+            [fine(statistics.median(times[n] for times in clouds)) for n in ('1', '2')] +
+            [fine(ratio) for ratio in (statistics.median(ratios), min(ratios), max(ratios))])
+    return markdown_table(['profile', 'goal', 'clouds', 'one thread, ms', 'two threads, ms',
+                           'times as fast, median', 'least', 'most'], lines)
 
 
 # --- blocks: peers, and speed of README.md ----------------------------------------------

@@ -5,8 +5,8 @@
   performance_report.py FOLDER [--page FILE] [--readme FILE] [--pictures FOLDER]
 
 FOLDER holds what scripts/benchmark left: machine.csv, rooms.csv, memory.csv, instructions.csv
-and, for real clouds, stages.csv, labels.csv and peers.csv. Each stands for blocks of the page: what lies between
-"<!-- begin NAME -->" and "<!-- end NAME -->" is written anew. Blocks whose CSV is missing stay
+and, for real clouds, stages.csv, labels.csv, threads.csv, threads_labels.csv and peers.csv. Each
+stands for blocks of the page: what lies between "<!-- begin NAME -->" and "<!-- end NAME -->" is written anew. Blocks whose CSV is missing stay
 as they are. Needs python3-matplotlib.
 """
 import argparse
@@ -55,6 +55,10 @@ def page_blocks(folder, pictures):
         blocks['cloud goals'] = clouds.goals_block(stages)
     if (folder / 'labels.csv').exists():
         blocks['cloud labels'] = clouds.labels_block(read_rows(folder / 'labels.csv'))
+    threads = [row for name in ('threads.csv', 'threads_labels.csv')
+               if (folder / name).exists() for row in read_rows(folder / name)]
+    if threads:
+        blocks['cloud threads'] = clouds.threads_block(threads)
     if (folder / 'peers.csv').exists():
         blocks['peers'] = clouds.peers_block(read_rows(folder / 'peers.csv'))
     return blocks

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** \file Command line: time of every stage of each profile, or of PAPER with given numbers of
- * labels, on the 640x480 clouds of folders, by one object that goes from cloud to cloud. */
+ * labels, on the 640x480 clouds of folders, by one object that goes from cloud to cloud; or the
+ * whole with several numbers of threads. */
 #include "frames.h"
 #include "paper_labels.h"
 #include "profiles.h"
@@ -16,6 +17,7 @@
 #include <locale>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace {
 
@@ -28,6 +30,7 @@ struct StageOptions {
   std::string data, output;
   std::vector<std::string> sets;
   std::vector<int> labels;
+  std::vector<unsigned int> threads;
   int width = 640, height = 480;
   int repeat = 9;
 };
@@ -51,6 +54,9 @@ po::options_description describe(StageOptions& o)
   add("sets", po::value(&o.sets)->multitoken(), "these sets only");
   add("labels", po::value(&o.labels)->multitoken(),
       "in place of the profiles: PAPER with so many labels, where a cloud gives them");
+  add("threads", po::value(&o.threads)->multitoken(),
+      "in place of the stages: the whole by the clock with so many threads, and so "
+      "many");
   add("width", po::value(&o.width), "of the clouds that count, otherwise 640");
   add("height", po::value(&o.height), "of the clouds that count, otherwise 480");
   add("repeat", po::value(&o.repeat),
@@ -110,40 +116,86 @@ std::vector<std::string> namesOf(const ReusedSegmenter& segmenter)
 /// What is measured: a profile, or PAPER with a number of labels.
 struct Candidate {
   std::string name;
-  std::size_t labels; ///< that a cloud must give; 0: any
-  ReusedSegmenter segmenter;
+  std::size_t labels;                      ///< that a cloud must give; 0: any
+  std::vector<ReusedSegmenter> segmenters; ///< one for each number of threads
+
+  Candidate(std::string of_name, std::size_t of_labels, Parameters parameters,
+            const std::vector<unsigned int>& threads)
+  : name(std::move(of_name))
+  , labels(of_labels)
+  {
+    for (const unsigned int number : threads) {
+      parameters.number_of_threads = number;
+      segmenters.emplace_back(parameters);
+    }
+  }
+
+  /// Lets the objects meet a cloud. \return whether it gives the labels that it must give
+  bool meet(const Cloud::ConstPtr& cloud)
+  {
+    for (ReusedSegmenter& segmenter : segmenters)
+      segmenter.segment(cloud);
+    return labels == 0 ||
+           segmenters[0].segmentation.getReport().planes_after_merging == labels;
+  }
 };
 
 std::vector<Candidate> candidates(const StageOptions& options)
 {
+  const std::vector<unsigned int> threads =
+      options.threads.empty() ? std::vector<unsigned int>{1} : options.threads;
   std::vector<Candidate> all;
   for (const int labels : options.labels)
-    all.push_back({std::to_string(labels), static_cast<std::size_t>(labels),
-                   ReusedSegmenter(withLabelsOnClouds(labels))});
+    all.emplace_back(std::to_string(labels), static_cast<std::size_t>(labels),
+                     withLabelsOnClouds(labels), threads);
   if (all.empty())
     for (const NamedProfile& profile : allProfiles())
-      all.push_back(
-          {profile.name, 0, ReusedSegmenter(Parameters::fromProfile(profile.profile))});
+      all.emplace_back(profile.name, 0, Parameters::fromProfile(profile.profile),
+                       threads);
   return all;
 }
 
-void measure(const Frame& frame, const Cloud::ConstPtr& cloud, int repeat,
-             Candidate& candidate, std::ostream& stream)
+/// A line of the CSV. \param[in] what the stage, or the number of threads
+void writeLine(const Frame& frame, const Cloud& cloud, const Candidate& candidate,
+               const std::string& what, double milliseconds, std::ostream& stream)
 {
-  ReusedSegmenter& segmenter = candidate.segmenter;
-  segmenter.segment(cloud); // not timed: the object meets the cloud
-  if (candidate.labels != 0 &&
-      segmenter.segmentation.getReport().planes_after_merging != candidate.labels)
-    return;
+  stream << frame.set << ',' << frame.name << ',' << candidate.name << ',' << what
+         << ',' << milliseconds << ',' << cloud.size() << ','
+         << candidate.segmenters[0].planes.size() << '\n';
+}
+
+void measureStages(const Frame& frame, const Cloud::ConstPtr& cloud, int repeat,
+                   Candidate& candidate, std::ostream& stream)
+{
+  ReusedSegmenter& segmenter = candidate.segmenters[0];
   StageTimes times;
   for (int run = 0; run < repeat; ++run)
     addRun(segmenter, cloud, times);
   for (const std::string& name : namesOf(segmenter))
-    stream << frame.set << ',' << frame.name << ',' << candidate.name << ',' << name
-           << ',' << medianOf(times[name]) << ',' << cloud->size() << ','
-           << segmenter.planes.size() << '\n';
+    writeLine(frame, *cloud, candidate, name, medianOf(times[name]), stream);
   std::cout << frame.set << ' ' << frame.name << ' ' << candidate.name << ": "
             << medianOf(times[WHOLE]) << " ms" << std::endl;
+}
+
+/// Runs with each number of threads one after the other: two objects in turn would drive each
+/// other's memory out of the caches.
+void measureThreads(const Frame& frame, const Cloud::ConstPtr& cloud,
+                    const StageOptions& options, Candidate& candidate,
+                    std::ostream& stream)
+{
+  std::cout << frame.set << ' ' << frame.name << ' ' << candidate.name << ':';
+  for (std::size_t k = 0; k < options.threads.size(); ++k) {
+    ReusedSegmenter& segmenter = candidate.segmenters[k];
+    segmenter.segment(cloud); // not timed: brings its memory back
+    StageTimes times;
+    for (int run = 0; run < options.repeat; ++run)
+      addRun(segmenter, cloud, times);
+    const double whole = medianOf(times[WHOLE]);
+    writeLine(frame, *cloud, candidate, std::to_string(options.threads[k]), whole,
+              stream);
+    std::cout << ' ' << whole << " ms";
+  }
+  std::cout << std::endl;
 }
 
 /// \return how many clouds there were
@@ -158,7 +210,12 @@ int measureAll(const StageOptions& options, std::ostream& stream)
       continue;
     ++clouds;
     for (Candidate& candidate : all)
-      measure(frame, cloud, options.repeat, candidate, stream);
+      if (!candidate.meet(cloud))
+        continue;
+      else if (options.threads.empty())
+        measureStages(frame, cloud, options.repeat, candidate, stream);
+      else
+        measureThreads(frame, cloud, options, candidate, stream);
   }
   return clouds;
 }
@@ -169,7 +226,8 @@ void writeCsv(const StageOptions& options)
   const std::string part = options.output + ".part";
   std::ofstream stream(part);
   stream.imbue(std::locale::classic());
-  stream << "set,frame,profile,stage,milliseconds,points,planes\n";
+  stream << "set,frame,profile," << (options.threads.empty() ? "stage" : "threads")
+         << ",milliseconds,points,planes\n";
   if (measureAll(options, stream) == 0)
     throw std::runtime_error("no cloud of the size asked for in '" + options.data +
                              "'");
