@@ -71,12 +71,6 @@ void makeTiles(const TileLevel& below, TileRows rows,
 
 } // namespace
 
-bool isFilled(const TileLevel& level, std::size_t tile,
-              const AdaptiveParameters& parameters)
-{
-  return level.sums[tile].n >= parameters.min_fill * level.side * level.side;
-}
-
 std::vector<TileLevel> buildTilePyramid(const OrganizedPoints& points,
                                         const AdaptiveParameters& parameters,
                                         unsigned int threads)

@@ -50,8 +50,11 @@ inline TileRows rowsInside(const TileLevel& level, const TileLevel& larger,
 }
 
 /** \brief Whether enough points of a tile are valid for it to have a plane. */
-bool isFilled(const TileLevel& level, std::size_t tile,
-              const AdaptiveParameters& parameters);
+inline bool isFilled(const TileLevel& level, std::size_t tile,
+                     const AdaptiveParameters& parameters)
+{
+  return level.sums[tile].n >= parameters.min_fill * level.side * level.side;
+}
 
 /** \brief Tiles of doubling side; each level is summed from the one below.
  * O(points) for the first level, O(cells) for the rest. */
