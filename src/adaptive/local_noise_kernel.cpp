@@ -5,8 +5,6 @@
 // instruction sets give the same bits.
 #include "adaptive/local_noise_kernel.h"
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "adaptive/local_noise_kernel.cpp"
 #include <hwy/foreach_target.h>

@@ -267,19 +267,25 @@ private:
   void fitQuarters(int row)
   {
     sums_.clear();
-    const auto addIfFilled = [&](int column) {
-      for (std::size_t q = 0; q < 4; ++q)
-        if (!isFilled(below_, quarter(column, row, q), parameters_))
-          return false;
-      for (std::size_t q = 0; q < 4; ++q)
-        sums_.push_back(below_.sums[quarter(column, row, q)]);
-      return true;
-    };
-    columns_.erase(std::remove_if(columns_.begin(), columns_.end(),
-                                  [&](int column) { return !addIfFilled(column); }),
-                   columns_.end());
+    std::size_t filled = 0;
+    for (const int column : columns_)
+      if (areFilled(column, row)) {
+        columns_[filled++] = column;
+        for (std::size_t q = 0; q < 4; ++q)
+          sums_.push_back(below_.sums[quarter(column, row, q)]);
+      }
+    columns_.resize(filled);
     planes_.resize(std::max(planes_.size(), sums_.size()));
     fitPlanes(sums_.data(), sums_.size(), planes_.data());
+  }
+
+  /// The quarters of a tile.
+  bool areFilled(int column, int row) const
+  {
+    for (std::size_t q = 0; q < 4; ++q)
+      if (!isFilled(below_, quarter(column, row, q), parameters_))
+        return false;
+    return true;
   }
 
   const TileLevel& level_;
