@@ -66,7 +66,8 @@ void parallelRows(int rows, unsigned int threads, const Work& work)
 {
   const Bands bands(rows);
   parallelParts(bands.count, threads, [&](int band) {
-    const int end = bands.begin(band + 1); // a division, which rows may be too short for
+    const int end =
+        bands.begin(band + 1); // a division, which rows may be too short for
     for (int row = bands.begin(band); row < end; ++row)
       work(row);
   });
