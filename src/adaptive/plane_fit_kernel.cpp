@@ -228,13 +228,16 @@ HWY_INLINE void FitAll(D d, const TileSums* sums, std::size_t count,
 
 void FitPlanes(const TileSums* sums, std::size_t count, FittedPlane* planes)
 {
-  // The fewer the lanes, the sooner a division is done.
+  // The fewer the lanes, the sooner a division is done; where there are few anyway, two of
+  // these are the same.
+  // NOLINTBEGIN(bugprone-branch-clone)
   if (count == 1)
     FitAll(hn::CappedTag<double, 1>(), sums, count, planes);
   else if (count <= 4)
     FitAll(hn::CappedTag<double, 4>(), sums, count, planes);
   else
     FitAll(hn::CappedTag<double, 8>(), sums, count, planes);
+  // NOLINTEND(bugprone-branch-clone)
 }
 
 } // namespace HWY_NAMESPACE
