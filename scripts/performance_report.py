@@ -6,8 +6,8 @@
 
 FOLDER holds what scripts/benchmark left: machine.csv, rooms.csv, memory.csv, instructions.csv
 and, for real clouds, stages.csv, labels.csv, threads.csv, threads_labels.csv and peers.csv. Each
-stands for blocks of the page: what lies between "<!-- begin NAME -->" and "<!-- end NAME -->" is written anew. Blocks whose CSV is missing stay
-as they are. Needs python3-matplotlib.
+stands for blocks of the page: what lies between "<!-- begin NAME -->" and "<!-- end NAME -->" is
+written anew. Blocks whose CSV is missing stay as they are. Needs python3-matplotlib.
 """
 import argparse
 import csv

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frame_memory.h"
+#include "threads.h"
 
 #include <pcl_mrf_planes/plane_regions.h>
 
@@ -25,6 +26,17 @@ struct LabelRuns {
   FrameVector<LabelRun> runs;    ///< row by row
   FrameVector<std::size_t> rows; ///< first run of each row, and the end of the last row
 };
+
+/// Calls visit(k) for the number of every run, as parallelRows() does for rows.
+template <typename Visit>
+void forEachRun(const LabelRuns& image, unsigned int threads, const Visit& visit)
+{
+  parallelRows(static_cast<int>(image.rows.size()) - 1, threads, [&](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k)
+      visit(k);
+  });
+}
 
 /// The first point from i on whose label is another one, or end. Four labels are compared at
 /// once.

@@ -142,15 +142,12 @@ void fillIndices(const LabelRuns& image, const FrameVector<std::size_t>& counts,
     PlaneRegion& region = regions[static_cast<std::size_t>(k)];
     region.indices.resize(counts[static_cast<std::size_t>(region.label)]);
   });
-  parallelRows(static_cast<int>(image.rows.size()) - 1, threads, [&](int row) {
-    const auto r = static_cast<std::size_t>(row);
-    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k) {
-      const LabelRun& run = image.runs[k];
-      if (PlaneRegion* region = of_label[run.label])
-        std::iota(&region->indices[place[k]],
-                  &region->indices[place[k]] + (run.end - run.begin),
-                  static_cast<int>(run.begin));
-    }
+  forEachRun(image, threads, [&](std::size_t k) {
+    const LabelRun& run = image.runs[k];
+    if (PlaneRegion* region = of_label[run.label])
+      std::iota(&region->indices[place[k]],
+                &region->indices[place[k]] + (run.end - run.begin),
+                static_cast<int>(run.begin));
   });
 }
 
@@ -214,10 +211,8 @@ void paintRegions(const LabelRuns& image, const std::vector<PlaneRegion>& region
   for (std::size_t k = 0; k < regions.size(); ++k)
     number[static_cast<std::size_t>(regions[k].label)] =
         static_cast<std::uint16_t>(k + 1);
-  parallelRows(static_cast<int>(image.rows.size()) - 1, threads, [&](int row) {
-    const auto r = static_cast<std::size_t>(row);
-    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k)
-      fillRun(image.runs[k], number[image.runs[k].label], labels);
+  forEachRun(image, threads, [&](std::size_t k) {
+    fillRun(image.runs[k], number[image.runs[k].label], labels);
   });
 }
 

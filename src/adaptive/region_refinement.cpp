@@ -14,26 +14,15 @@ namespace pcl_mrf_planes::adaptive {
 
 namespace {
 
-/// Calls visit(run) for every run of an image.
-template <typename Visit>
-void forEachRun(LabelRuns& image, unsigned int threads, const Visit& visit)
-{
-  parallelRows(static_cast<int>(image.rows.size()) - 1, threads, [&](int row) {
-    const auto r = static_cast<std::size_t>(row);
-    for (std::size_t k = image.rows[r]; k < image.rows[r + 1]; ++k)
-      visit(image.runs[k]);
-  });
-}
-
 /// Labels of 4-connected parts below the least size become 0.
 void dropSmallParts(int least, LabelledPoints& image, unsigned int threads)
 {
-  const RunRoots roots(image.runs, threads);
-  const LabelRun* const first = image.runs.runs.data();
-  forEachRun(image.runs, threads, [&](LabelRun& run) {
-    if (roots.points(static_cast<std::size_t>(&run - first)) < least) {
-      fillRun(run, 0, image.labels);
-      run.label = 0;
+  LabelRuns& runs = image.runs;
+  const RunRoots roots(runs, threads);
+  forEachRun(runs, threads, [&](std::size_t k) {
+    if (roots.points(k) < least) {
+      fillRun(runs.runs[k], 0, image.labels);
+      runs.runs[k].label = 0;
     }
   });
 }
@@ -228,7 +217,8 @@ LabelledPoints::LabelledPoints(std::vector<std::uint16_t> of_points, int width,
 void LabelledPoints::renumber(const FrameVector<std::uint16_t>& id,
                               unsigned int threads)
 {
-  forEachRun(runs, threads, [&](LabelRun& run) {
+  forEachRun(runs, threads, [&](std::size_t k) {
+    LabelRun& run = runs.runs[k];
     if (id[run.label] == 0 && run.label != 0)
       fillRun(run, 0, labels);
     run.label = id[run.label];
@@ -239,7 +229,8 @@ void LabelledPoints::renumber(const FrameVector<std::uint16_t>& id,
 
 void LabelledPoints::write(unsigned int threads)
 {
-  forEachRun(runs, threads, [&](const LabelRun& run) {
+  forEachRun(runs, threads, [&](std::size_t k) {
+    const LabelRun& run = runs.runs[k];
     if (labels[run.begin] != run.label)
       fillRun(run, run.label, labels);
   });
